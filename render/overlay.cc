@@ -17,6 +17,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
+constexpr Rgb kMarkColor{0.25, 0.45, 0.75};
 
 // The same page with other colours.
 OverlayPage With(const OverlayPage& page, const Inks& inks) { return {page, page.canvas, inks}; }
@@ -100,6 +101,7 @@ void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& 
     Page over = With(page, backdrop.InksAt(page.width - left, top));
     PaintLamp(over, state);
   }
+  if (spec.parts.marks && !page.is_small) PaintMarks(page, state, spec);
 }
 
 void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec,
@@ -179,6 +181,34 @@ void Overlay::PaintTitle(Page& page, const SceneState& state, const PictureSpec&
   const std::string line = Shorten(spec.title, page.fonts.bold, size, room);
   page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, page.fonts.bold, size,
                    page.inks.text);
+}
+
+// Below the title; the newest last, as they came.
+void Overlay::PaintMarks(Page& page, const SceneState& state, const PictureSpec& spec) {
+  constexpr std::size_t kMostLines = 4;
+  constexpr double kLongest = 0.42;  // of the picture's width
+  Font& font = page.fonts.regular;
+  const int size = page.FontPx(kTextSize);
+  const double line = 1.9 * size, left = page.Px(kMargin);
+  const bool has_title = spec.parts.title && !spec.title.empty();
+  const bool has_lamp = spec.parts.status && !HasOnlyRobots(state);
+  double top = page.Px(kMargin);
+  if (has_title || has_lamp) top += 1.5 * page.FontPx(kTitleSize);
+  std::vector<std::string> lines = spec.marks;
+  if (lines.size() > kMostLines) {
+    const std::size_t more = lines.size() - (kMostLines - 1);
+    lines.erase(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(more));
+    lines.insert(lines.begin(), std::to_string(more) + " more marks");
+  }
+  for (const std::string& each : lines) {
+    const std::string text = Shorten(each, font, size, kLongest * page.width);
+    const double width = font.Width(text, size) + 1.9 * size;
+    page.canvas.RoundedBox(left, top, width, 1.6 * size, 0.4 * size, page.inks.panel);
+    page.canvas.RoundedBox(left + 0.4 * size, top + 0.35 * size, 0.3 * size, 0.9 * size,
+                           0.15 * size, {kMarkColor, 1});
+    page.canvas.Text(left + 1.1 * size, top + 1.14 * size, text, font, size, page.inks.text);
+    top += line;
+  }
 }
 
 void Overlay::PaintTimeCode(Page& page, const SceneState& state) {

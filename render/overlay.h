@@ -50,6 +50,7 @@ class Overlay {
                    const Backdrop& backdrop);
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec);
+  void PaintMarks(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintBanner(Page& page, const std::string& full, const std::string& brief);
   void PaintNoData(Page& page, const SceneState& state);

@@ -17,6 +17,7 @@ struct OverlayParts {
   bool scale = false;       // scale bar, true at the depth of the camera's target
   bool frame_code = false;  // machine-readable: sample and time (frame_code.h)
   bool plot = false;        // PictureSpec::load_curves
+  bool marks = true;        // PictureSpec::marks
 };
 
 struct OverlayInfo {
@@ -24,7 +25,7 @@ struct OverlayInfo {
   bool OverlayParts::*part;
 };
 
-inline constexpr std::array<OverlayInfo, 9> kOverlays = {{
+inline constexpr std::array<OverlayInfo, 10> kOverlays = {{
     {"title", &OverlayParts::title},
     {"status", &OverlayParts::status},
     {"legend", &OverlayParts::legend},
@@ -34,6 +35,7 @@ inline constexpr std::array<OverlayInfo, 9> kOverlays = {{
     {"scale", &OverlayParts::scale},
     {"frame_code", &OverlayParts::frame_code},
     {"plot", &OverlayParts::plot},
+    {"marks", &OverlayParts::marks},
 }};
 
 }  // namespace kinescope::render

@@ -51,6 +51,12 @@ struct PlotMark {
   std::string label;
 };
 
+/// A moment or a span of x: a line at each end, and a label above the first.
+struct PlotFlag {
+  double from = 0, to = 0;
+  std::string label;  // "": none
+};
+
 /// One pair of axes with its content.
 struct PlotPanel {
   double left = 0, top = 0, width = 0, height = 0;  // of the axes' box, within the plot
@@ -63,6 +69,7 @@ struct PlotPanel {
   std::vector<PlotCurve> curves;
   std::vector<PlotClassInterval> class_timeline;
   std::vector<PlotMark> marks;
+  std::vector<PlotFlag> flags;
   double font_size = 8;
 };
 

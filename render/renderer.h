@@ -81,7 +81,8 @@ struct PictureSpec {
   /// For the plot; its cursor is at plot_secs.
   std::shared_ptr<const LoadCurves> load_curves = nullptr;
   double plot_secs = 0;
-  SceneLook look = {};  // theme, background, visible elements
+  std::vector<std::string> marks = {};  // captions of what was marked at this time, oldest first
+  SceneLook look = {};                  // theme, background, visible elements
   PrintSize print = {};
   LegendPlace legend = LegendPlace::kInside;
   /// What the legend lists; nullptr: what the picture shows. Fixed for a whole clip by

@@ -10,8 +10,10 @@
 
 namespace kinescope::marks {
 
-MarkBook::MarkBook(BookSettings settings)
-    : settings_(std::move(settings)), run_micros_(WallNanos() / 1000) {
+MarkBook::MarkBook(BookSettings settings, OnChange on_change)
+    : settings_(std::move(settings)),
+      on_change_(std::move(on_change)),
+      run_micros_(WallNanos() / 1000) {
   std::error_code ignored;
   if (!std::filesystem::exists(settings_.file, ignored)) return;
   const std::string problem = OpenFile();
@@ -100,6 +102,7 @@ MarkBook::Result MarkBook::Keep(Mark mark) {
   mark.revision = revision_ + 1;
   const std::string problem = file_->Append(mark);
   if (!problem.empty()) return tl::unexpected(problem);
+  if (on_change_) on_change_(mark);
   return Store(std::move(mark));
 }
 

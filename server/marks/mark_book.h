@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -39,8 +40,11 @@ class MarkBook {
  public:
   using Result = tl::expected<Mark, std::string>;  // or why not, one line
 
+  /// Receives each change, once it is in the file; on the thread that makes it.
+  using OnChange = std::function<void(const Mark& mark)>;
+
   /// Reads the file if it exists. @throws UsageError if it cannot be used.
-  explicit MarkBook(BookSettings settings);
+  explicit MarkBook(BookSettings settings, OnChange on_change = nullptr);
 
   Result Add(const NewMark& mark);
   /// Ends the open span `id`. An end before its beginning exchanges them.
@@ -64,6 +68,7 @@ class MarkBook {
   std::string OpenFile();
 
   const BookSettings settings_;
+  const OnChange on_change_;  // may be null
   const std::int64_t run_micros_;
   mutable std::mutex mutex_;
   // Guarded by mutex_:

@@ -13,6 +13,9 @@
 
 namespace kinescope::marks {
 
+/// The lines of a file that no server need have open. @return or why not, with the path
+tl::expected<std::vector<Mark>, std::string> ReadMarks(const std::filesystem::path& path);
+
 class MarkFile {
  public:
   /// Opens `path`, or makes it and the folders above it, and reads what it holds: `marks` in the

@@ -132,6 +132,7 @@ void RenderPlanner::Prescan(const SceneState& state) {
 RenderRequest RenderPlanner::With(Layout layout, SceneState state, render::SceneLook look,
                                   std::vector<render::Camera> cameras, double secs) const {
   RenderRequest request{std::move(state), cameras.front(), std::move(layout.spec), {}};
+  if (marks_at_) request.spec.marks = marks_at_(request.state);
   request.spec.look = std::move(look);
   for (std::size_t i = 0; i < request.spec.panes.size(); ++i) {
     request.spec.panes[i].camera = cameras[i];

@@ -9,6 +9,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -72,6 +74,11 @@ class RenderPlanner {
   /// Length of the history that a picture shows, s.
   double history_secs() const { return additions_.history_secs(); }
 
+  /// What was marked at the time of a state: captions for the overlay.
+  void ShowMarks(std::function<std::vector<std::string>(const SceneState&)> marks_at) {
+    marks_at_ = std::move(marks_at);
+  }
+
   const render::PictureSpec& spec() const { return spec_; }
 
  private:
@@ -106,6 +113,7 @@ class RenderPlanner {
   render::LegendContent legend_;  // of the first pass, or else of the first picture
   std::optional<Layout> layout_;  // of a clip, made with the first request
   std::vector<Moment> moments_;
+  std::function<std::vector<std::string>(const SceneState&)> marks_at_;  // null: none
 };
 
 /// Performs the first pass for `planners` that need it: reads `source` up to `seconds` after its

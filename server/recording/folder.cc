@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestPart = 40;
 constexpr std::size_t kLongestName = 160;
-constexpr std::array<std::string_view, 4> kEndings = {".pcap", ".mp4", ".html", ".json"};
+constexpr std::array<std::string_view, 5> kEndings = {".pcapng", ".pcap", ".mp4", ".html", ".json"};
 
 bool IsPlain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||

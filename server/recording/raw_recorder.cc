@@ -10,7 +10,7 @@ namespace kinescope::recording {
 namespace {
 
 constexpr std::chrono::milliseconds kWatchEvery(500);
-constexpr std::uint64_t kPacketBytes = 16 + 20 + 8;  // around a datagram in the file, IPv4
+constexpr std::uint64_t kPacketBytes = 32 + 20 + 8;  // around a datagram in the file, IPv4
 constexpr double kMb = 1e6;
 
 std::string Megabytes(std::uintmax_t bytes) {
@@ -60,7 +60,7 @@ std::string RawRecorder::Start(const std::string& stem) {
     return "the disk is full: " + Megabytes(*free) + " are free, and " + Megabytes(spare_bytes_) +
            " are kept for marks; delete files, or choose another disk with --recordings_folder";
   }
-  const std::string file = stem + ".pcap";
+  const std::string file = stem + kEnding;
   std::unique_ptr<mvn::PcapRecorder> recorder;
   try {
     mvn::PcapWriterSettings settings;
@@ -81,6 +81,11 @@ std::string RawRecorder::Start(const std::string& stem) {
 void RawRecorder::Stop() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (recorder_ != nullptr) End("");
+}
+
+void RawRecorder::Comment(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (recorder_ != nullptr) recorder_->Comment(text);
 }
 
 // @pre mutex_ is held, and it records

@@ -43,11 +43,15 @@ class RawRecorder : public mvn::DatagramSink {
   RawRecorder(const RawRecorder&) = delete;
   RawRecorder& operator=(const RawRecorder&) = delete;
 
-  /// Starts to record to a new file `stem`.pcap of the folder. Any thread but the reading one.
+  static constexpr const char* kEnding = ".pcapng";
+
+  /// Starts to record to a new file `stem` + kEnding of the folder. Any thread but the reading one.
   /// @return "", or why not: it records already, a missing folder, a full disk
   [[nodiscard]] std::string Start(const std::string& stem);
   /// Returns at once; the rest is saved meanwhile.
   void Stop();
+  /// Writes `text` as the comment of the next datagram, if it records. Any thread.
+  void Comment(const std::string& text);
   /// Waits until `file` is saved; returns at once if it is, or if it is being recorded.
   void AwaitSaved(const std::string& file);
 

@@ -24,7 +24,7 @@ struct Trial {
   TrialMoment from;
   std::optional<TrialMoment> to;      // nullopt: it runs, or the server ended before it
   std::optional<std::uint64_t> mark;  // id of its span
-  bool has_recording = false;         // stem.pcap
+  bool has_recording = false;         // stem + RawRecorder::kEnding
   std::string recording_problem;      // why there is none, or why it is not complete
   /// Of the person and the loads when it was started: values of the options of `kinescope loads`,
   /// "name=value", one per line.

@@ -100,11 +100,15 @@ test('a study of 20 trials is run from the page alone', async () => {
       const about = JSON.parse(await readFile(join(recordings, `${stem}.json`), 'utf8'));
       assert.deepEqual([about.person, about.condition, about.number, about.recording_problem], [person, condition, number, '']);
       assert.ok(Math.abs(about.length_secs - secs) < 0.001, `${title}: ${secs} s, in its file ${about.length_secs} s`);
-      const recorded = await inspect(join(recordings, `${stem}.pcap`));
+      const recorded = await inspect(join(recordings, `${stem}.pcapng`));
       assert.ok(Math.abs(recorded.seconds - secs) < 0.3, `${title}: ${secs} s, recorded ${recorded.seconds} s`);
       const clip = lengthOfMp4(await readFile(join(recordings, `${stem}.mp4`)));
       assert.ok(Math.abs(clip - secs) < 0.1, `${title}: ${secs} s, clip of ${clip} s`);
-      assert.match(await readFile(join(recordings, `${stem}.html`), 'utf8'), new RegExp(`${stem}\\.pcap`));
+      const report = await readFile(join(recordings, `${stem}.html`), 'utf8');
+      assert.match(report, new RegExp(`${stem}\\.pcapng`));
+      assert.match(report, /<b>Marks<\/b>.* \d lift \(\d/, 'what was marked, with its time');
+      const capture = await readFile(join(recordings, `${stem}.pcapng`), 'latin1');
+      assert.match(capture, /Kinescope mark: \{[^\n]*"text":"lift"/);
     }
   }
   const wait = page.waitForEvent('download');
@@ -164,7 +168,7 @@ test('clips are of the last or the next seconds, or of a time that was looked at
   await textIs(page, 'banner', /^Could not make the clip: the last 600 s are more than is kept/);
   await page.click('#clip-next');
   await page.click('#job-list button');
-  await page.waitForFunction(() => document.querySelector('#job-list li').dataset.state === 'cancelled', null, LONG);
+  await page.waitForFunction(() => document.querySelector('#job-list li')?.dataset.state === 'cancelled', null, LONG);
   const { files } = await page.evaluate(async () => (await fetch('api/v1/files')).json());
   const lengths = await Promise.all(files.filter(({ name }) => name.startsWith('clip_'))
     .map(async ({ name }) => Math.round(10 * lengthOfMp4(await readFile(join(recordings, name)))) / 10));
@@ -207,7 +211,7 @@ test('the person, the hand loads and the class limits are changed for all, and e
   assert.deepEqual((await changesOf(page)).filter((text) => !text.startsWith('recording')), wanted);
   await chooseTab(other.page, 'marks');
   await other.page.waitForFunction(() => document.querySelector('#mark-list li[data-kind="change"] kbd')?.textContent === '✎'
-    && document.querySelector('#mark-list li[data-kind="change"] fieldset').hidden, null, LONG);
+    && document.querySelector('#mark-list li[data-kind="change"] fieldset')?.hidden, null, LONG);
   await saveScreenshot(other.page, 'change_marks_desktop');
   assert.deepEqual([...problems.filter((line) => !line.includes('400')), ...other.problems], []);
   await close();

@@ -139,6 +139,14 @@ def try_curl(line, folder):
             suit.kill()
 
 
+def write_marks(folder):
+    """A mark of a take of the past."""
+    moment = {"state": 7, "micros": 7, "stamp_micros": 1763900000000000, "time_code_millis": 43200000, "counter": 6}
+    mark = {"id": 1, "revision": 1, "run_micros": 1763900000000000, "kind": "mark", "button": 0, "text": "belt slipped", "role": "operator", "at": moment, "end": None,
+            "is_open": False, "is_removed": False, "behind_secs": 0, "pressed_micros": 1763900000000000}
+    (pathlib.Path(folder) / "marks.jsonl").write_text(json.dumps(mark) + "\n")
+
+
 def write_rules(folder):
     """The rules which the document shows as its example."""
     rules = re.search(r"^```yaml\n(.*?)^```", (TOP / "docs/alarms.md").read_text(), re.M | re.S)[1]
@@ -171,6 +179,8 @@ def try_kinescope(words, folder):
                        "-keyout", "lab.key", "-out", "lab.pem"], folder)
         if problem:
             return problem
+    if "marks.jsonl" in words:
+        write_marks(folder)
     if "rules.yaml" in words:
         write_rules(folder)
     if "--wrenches" in words:

@@ -181,6 +181,17 @@ void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, P
                         7.5, false, kFaint});
 }
 
+// Below the plot, as many as there are.
+void AddMarkNames(const std::vector<TrialMark>& marks, double left, Plot& plot) {
+  constexpr double kSize = 7.5, kLine = 10;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    plot.texts.push_back({left, plot.height,
+                          fmt::format("{}  {}  ({})", i + 1, marks[i].text, TimesText(marks[i])),
+                          kSize, false, kInk});
+    plot.height += kLine;
+  }
+}
+
 }  // namespace
 
 Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t joint) {
@@ -204,6 +215,10 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
     ratio.marks.push_back({trial.SecsOf(exposure.peak_stamp_nanos), exposure.peak_ratio,
                            fmt::format("{:.2f} {}", exposure.peak_ratio, exposure.peak_channel)});
   }
+  for (std::size_t i = 0; i < context.marks.size(); ++i) {
+    const TrialMark& mark = context.marks[i];
+    ratio.flags.push_back({mark.from_secs, mark.to_secs, std::to_string(i + 1)});
+  }
   plot.panels.push_back(std::move(ratio));
 
   double bottom = 44 + 130 + 12;
@@ -214,6 +229,8 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
     panel.height = 76;
     panel.has_x_numbers = false;
     panel.gaps = plot.panels[0].gaps;
+    panel.flags = plot.panels[0].flags;
+    for (render::PlotFlag& flag : panel.flags) flag.label.clear();
     bottom = panel.top + panel.height;
     plot.panels.push_back(std::move(panel));
   };
@@ -227,6 +244,7 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
   plot.panels.back().x_label = "time (s)";
   AddReasons(trial, joint, kLeft, bottom + 38, plot);
   plot.height = bottom + 46;
+  AddMarkNames(context.marks, kLeft, plot);
   return plot;
 }
 

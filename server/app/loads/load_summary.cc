@@ -247,6 +247,9 @@ TrialSummary SummaryOf(const LoadTrial& trial, const TrialContext& context) {
   summary.com_minus_mvn_m = PeakSummary(trial, trial.com_minus_mvn());
   summary.compression = PeakSummary(trial, trial.compression());
   summary.shear = PeakSummary(trial, trial.shear());
+  for (const TrialMark& mark : context.marks) {
+    summary.marks.push_back({mark, LoadsAround(mark, trial)});
+  }
   return summary;
 }
 

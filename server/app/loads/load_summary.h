@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/app/loads/load_trial.h"
+#include "server/app/loads/trial_marks.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_options.h"
 
@@ -22,6 +23,7 @@ struct TrialContext {
   double rate_hz = 0;  // 0: unknown
   SceneOptions scene;
   nlohmann::json options;  // option values of this run, by name
+  std::vector<TrialMark> marks;
 };
 
 /// A label and its value for display; `is_assumed`: a default value.
@@ -75,6 +77,11 @@ struct TrialSummary {
   std::array<JointSummary, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
   std::vector<std::string> notes;
   std::optional<ValueSummary> com_minus_mvn_m, compression, shear;  // N, at L5/S1
+  struct MarkSummary {
+    TrialMark mark;
+    MarkLoads loads;
+  };
+  std::vector<MarkSummary> marks;
 };
 
 TrialSummary SummaryOf(const LoadTrial& trial, const TrialContext& context);

@@ -86,6 +86,25 @@ json JointJson(std::string_view name, const JointSummary& joint,
   return out;
 }
 
+json MarkJson(const TrialSummary::MarkSummary& each) {
+  const TrialMark& mark = each.mark;
+  const auto& highest = each.loads.highest;
+  return {{"from_s", mark.from_secs},
+          {"to_s", mark.to_secs},
+          {"is_span", mark.is_span},
+          {"kind", mark.is_change ? "change" : "mark"},
+          {"button", mark.button},
+          {"text", mark.text},
+          {"role", mark.role},
+          {"window_from_s", each.loads.from_secs},
+          {"window_to_s", each.loads.to_secs},
+          {"joint", highest ? json(ScoredName(highest->joint)) : json(nullptr)},
+          {"ratio", highest ? json(highest->ratio) : json(nullptr)},
+          {"ratio_time_s", highest ? json(highest->at_secs) : json(nullptr)},
+          {"l5_s1_compression_N",
+           each.loads.compression_N ? json(*each.loads.compression_N) : json(nullptr)}};
+}
+
 json ValueJson(const std::optional<ValueSummary>& value) {
   if (!value) return nullptr;
   return {{"mean", value->mean}, {"most", value->most}, {"most_at_s", value->most_at_secs}};
@@ -110,13 +129,20 @@ std::string SummaryText(const TrialSummary& summary) {
       "Shares of the samples in which the load is known, with a ratio up to {0:g}, up to {1:g} and "
       "above; longest: longest time above {1:g}; rises: how often the ratio rose above it.\n",
       summary.limits[0], summary.limits[1]);
+  if (!summary.marks.empty())
+    text += "\nMarks, with the highest load and L5/S1 compression around:\n";
+  for (const TrialSummary::MarkSummary& each : summary.marks) {
+    text += fmt::format("  {:<20} {}  ({})\n", TimesText(each.mark), PrintableLine(each.mark.text),
+                        LoadsText(each.loads));
+  }
   if (!summary.notes.empty()) text += '\n';
   for (const std::string& note : summary.notes) text += note + '\n';
   return text;
 }
 
 json SummaryJson(const TrialSummary& summary) {
-  json facts = json::array(), exposure = json::array();
+  json facts = json::array(), exposure = json::array(), marks = json::array();
+  for (const TrialSummary::MarkSummary& each : summary.marks) marks.push_back(MarkJson(each));
   for (const Fact& fact : summary.facts) {
     facts.push_back({{"name", fact.label}, {"value", fact.value}, {"is_assumed", fact.is_assumed}});
   }
@@ -135,7 +161,8 @@ json SummaryJson(const TrialSummary& summary) {
           {"exposure", exposure},
           {"com_minus_mvn_m", ValueJson(summary.com_minus_mvn_m)},
           {"l5_s1_compression_N", ValueJson(summary.compression)},
-          {"l5_s1_shear_N", ValueJson(summary.shear)}};
+          {"l5_s1_shear_N", ValueJson(summary.shear)},
+          {"marks", marks}};
 }
 
 }  // namespace kinescope::app

@@ -1,5 +1,6 @@
 // `kinescope loads`: the loads of a whole recording as a table, CSV, JSON, plots and a report.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <cstdio>
@@ -21,6 +22,8 @@
 #include "server/app/loads/load_summary.h"
 #include "server/app/loads/load_trial.h"
 #include "server/app/loads/sensitivity.h"
+#include "server/app/loads/trial_marks.h"
+#include "server/app/marks_value.h"
 #include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/options/option_json.h"
@@ -42,11 +45,12 @@ struct LoadsOptions {
   options::Choice<bool> joints{{{"scored", false}, {"all", true}}, false};
   options::Choice<bool> columns{{{"usual", false}, {"all", true}}, false};
   options::Optional<options::Number> seconds{options::Number(0, {0, kLatestSecs, "s", true})};
+  MarksValue marks;
   PersonOptions person;
   LoadOptions loads;
   BackendOptions backend;
 
-  bool wants_plots() const { return !plots->empty() || !report->empty(); }
+  bool wants_curves() const { return !plots->empty() || !report->empty() || marks.IsGiven(); }
 
   void List(options::OptionList& option) {
     option("source", source, "source of the people: " + RecordedSourceKinds());
@@ -62,6 +66,10 @@ struct LoadsOptions {
            "the second largest ratio of each joint)");
     option("plots", plots, "folder to write, with a PNG and an SVG per joint");
     option("report", report, "report to write, one A4 page per person, .html or .pdf");
+    option(
+        "marks", marks,
+        "file of marks (--marks_file of serve): table, JSON, plots and report show them with the "
+        "highest loads around them");
     option("seconds", seconds, "length of the motion to read; default: all (demo: 8 s)");
     person.List(option);
     loads.List(option);
@@ -107,6 +115,7 @@ class Recording {
   Recording(const LoadsOptions& options, const TrialContext& context)
       : options_(options),
         meter_(context.scene.loads.meter),
+        track_(ReadTrack(options.marks)),
         length_secs_(LengthOf(options)),
         reader_(*options.source, context.scene) {
     if (!options.report->empty()) sensitivity_.emplace(context.scene, length_secs_, reader_);
@@ -122,10 +131,12 @@ class Recording {
     while (const auto scene = reader_.Next()) {
       if (StopRequested()) Interrupted();
       if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
+      if (first_ == nullptr) first_ = scene;
       if (!IsWithinLength(*begin_nanos_, scene->stamp_nanos, length_secs_)) break;
       for (const PersonState& person : scene->people) {
         if (fresh_.IsNew(person)) Add(scene, person);
       }
+      last_ = scene;
       progress.Step();
     }
     for (auto& [character, trial] : trials_) trial.Finish();
@@ -135,6 +146,10 @@ class Recording {
     for (const auto& file : files_) file->Finish(summary);
   }
 
+  std::vector<TrialMark> MarksOfTrial() const {
+    if (last_ == nullptr) return {};
+    return MarksOf(track_, *first_, *last_);
+  }
   double rate_hz() const { return reader_.rate_hz(); }
   const std::map<int, LoadTrial>& trials() const { return trials_; }
   /// @pre a report was requested
@@ -153,7 +168,7 @@ class Recording {
   }
 
   void Add(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
-    trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_, meter_)
+    trials_.try_emplace(person.character, options_.wants_curves(), *begin_nanos_, meter_)
         .first->second.Add(scene, person);
     if (sensitivity_) sensitivity_->AddAsComputed(person);
     for (const auto& file : files_) file->Add(person, *begin_nanos_);
@@ -161,11 +176,13 @@ class Recording {
 
   const LoadsOptions& options_;
   const loads::LoadMeter::Settings meter_;
+  const marks::MarkTrack track_;
   const std::optional<double> length_secs_;
   SceneReader reader_;
   std::optional<Sensitivity> sensitivity_;  // for the report
   std::vector<std::unique_ptr<LoadFile>> files_;
   std::optional<std::int64_t> begin_nanos_;
+  std::shared_ptr<const SceneState> first_, last_;
   NewSamples fresh_;
   std::map<int, LoadTrial> trials_;  // by character
 };
@@ -230,6 +247,10 @@ bool Loads(LoadsOptions& options, const options::OptionList& list) {
   Recording recording(options, context);
   context.rate_hz = recording.rate_hz();
   recording.Read();
+  context.marks = recording.MarksOfTrial();
+  if (options.marks.IsGiven() && context.marks.empty()) {
+    spdlog::warn("{}: has no mark of this recording", *options.marks);
+  }
   if (recording.trials().empty()) {
     throw SourceError(*options.source + ": contains no sample of a person");
   }

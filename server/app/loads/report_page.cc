@@ -68,6 +68,7 @@ constexpr double kPageMm = 186;  // width of the text
 constexpr double kTitlePt = 13, kBodyPt = 7.2, kFindingPt = 8.2, kFootPt = 7, kCommandPt = 7.8;
 constexpr double kTitleMm = 120, kFindingMm = 180, kNoteMm = 80;  // widths of a line
 constexpr double kNameMm = 50, kFactMm = 75;                      // of one line at most
+constexpr int kMostMarkLines = 2;
 constexpr int kMostTitleLines = 2, kMostDetailLines = 3, kMostCommandLines = 2;
 
 // Lines of a text that is broken at words.
@@ -163,6 +164,24 @@ std::string CommandOf(const ReportPage& page) {
   return shown.size() < whole.size() ? shown + " (all: options in --json)" : shown;
 }
 
+// "Marks: 1 belt slipped (3.20 s; 0.82 right knee, 3120 N) · ..."; "": none.
+std::string MarksText(const ReportPage& page) {
+  std::string text;
+  for (std::size_t i = 0; i < page.context.marks.size(); ++i) {
+    const TrialMark& mark = page.context.marks[i];
+    text += fmt::format("{}{} {} ({}; {})", i == 0 ? "" : " · ", i + 1, mark.text, TimesText(mark),
+                        LoadsText(LoadsAround(mark, page.trial)));
+  }
+  const std::string shown = Shortened(text, kBodyPt, kMostMarkLines * 0.95 * kPageMm);
+  return shown.size() < text.size() ? shown + " (all: marks in --json)" : shown;
+}
+
+std::string MarksHtml(const ReportPage& page) {
+  if (page.context.marks.empty()) return "";
+  return "<p><b>Marks</b>, with the highest loads around them: " + EscapeHtml(MarksText(page)) +
+         "</p>\n";
+}
+
 // What the texts of any length above and below the figures take of the page, beyond the usual, mm.
 double LongTextsMm(const ReportPage& page) {
   constexpr double kBold = 1.08, kFactGapMm = 6;
@@ -178,7 +197,13 @@ double LongTextsMm(const ReportPage& page) {
       kBold * TextWidthMm(finding.headline, kFindingPt) + TextWidthMm(finding.details, kFindingPt);
   const double foot_mm =
       TextWidthMm(FootText(page), kFootPt) + TextWidthMm(CommandOf(page), kCommandPt);
-  return kTitleLineMm * (LinesOf(kBold * TextWidthMm(TitleOfPage(page), kTitlePt), kTitleMm) - 1) +
+  constexpr double kMarkLineMm = 3.25, kMarksHeadMm = 62;
+  const double marks_mm =
+      page.context.marks.empty()
+          ? 0
+          : kMarkLineMm * LinesOf(kMarksHeadMm + TextWidthMm(MarksText(page), kBodyPt), kPageMm);
+  return marks_mm +
+         kTitleLineMm * (LinesOf(kBold * TextWidthMm(TitleOfPage(page), kTitlePt), kTitleMm) - 1) +
          kFactLineMm * std::max(0, LinesOf(facts_mm, kPageMm) - kUsualFactLines) +
          kFindingLineMm * std::max(0, LinesOf(finding_mm, kFindingMm) - kUsualFindingLines) +
          kFootLineMm * std::max(0, LinesOf(foot_mm, kPageMm) - kUsualFootLines);
@@ -204,11 +229,12 @@ std::string FiguresHtml(const ReportPage& page) {
       "s apart</small></h2>{}</td><td "
       "class=\"fig\"><h2>Over time <small>dark: above {:g}; hatched: "
       "unknown</small></h2>{}</td></tr>"
-      "</table>\n<h2>Amplitude distribution <small>% of known samples at or below a ratio (APDF); "
+      "</table>\n{}<h2>Amplitude distribution <small>% of known samples at or below a ratio "
+      "(APDF); "
       "dots: P10, P50, P90; right solid, left dashed and hollow; shaded: above "
       "{:g}</small></h2>\n<div class=\"fig\">{}</div>\n",
       page.trial.apart_secs(), PicturesHtml(page.pictures), high,
-      TimeFigure(page.trial, page.context, TimeFigureMm(page)), high,
+      TimeFigure(page.trial, page.context, TimeFigureMm(page)), MarksHtml(page), high,
       DistributionFigure(page.trial, page.context));
 }
 

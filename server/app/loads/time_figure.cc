@@ -21,6 +21,7 @@ namespace {
 constexpr double kAxisLeft = 17,
                  kAxisRight = kTimeFigureWidthMm - 10;  // between row names and limits
 constexpr double kCurveTop = 3.6, kTimeAxisHeight = 4.2;
+constexpr double kMarkPt = 7.5;  // bold is wider than its 7.1 pt
 constexpr Rgb kGridInk = {0.86, 0.87, 0.89}, kBandInk = {0.80, 0.82, 0.84};
 
 TimeScale ScaleOf(const LoadTrial& trial) {
@@ -154,6 +155,29 @@ class CompressionPanel {
   double bottom_, top_kn_ = 1;
 };
 
+// Numbers as in the list below the figure; those that would overlap are left out.
+void DrawMarks(const std::vector<TrialMark>& marks, const TimeScale& scale, double bottom,
+               SvgDrawing& drawing) {
+  constexpr Rgb kMarkInk = {0.15, 0.33, 0.62};
+  const SvgStroke stroke = {kMarkInk, 0.25, "1.4 0.5"};
+  double free_from = kAxisLeft;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const double from = scale.X(std::clamp(marks[i].from_secs, scale.from, scale.to));
+    const double to = scale.X(std::clamp(marks[i].to_secs, scale.from, scale.to));
+    drawing.Line({{from, kCurveTop}, {from, bottom}}, stroke);
+    if (to > from) {
+      drawing.Line({{to, kCurveTop}, {to, bottom}}, stroke);
+      drawing.Line({{from, kCurveTop}, {to, kCurveTop}}, {kMarkInk, 0.5, ""});
+    }
+    const std::string number = std::to_string(i + 1);
+    const double width = TextWidthMm(number, kMarkPt) + 0.8;
+    if (from < free_from || from + width > kAxisRight + 8) continue;
+    drawing.Fill({from, kCurveTop, width, 3}, {1, 1, 1});
+    drawing.Text(from + 0.4, kCurveTop + 2.4, number, {SvgAnchor::kStart, true, kMarkInk});
+    free_from = from + width + 0.4;
+  }
+}
+
 }  // namespace
 
 std::string TimeFigure(const LoadTrial& trial, const TrialContext& context, double height_mm) {
@@ -171,6 +195,7 @@ std::string TimeFigure(const LoadTrial& trial, const TrialContext& context, doub
                fmt::format("L5/S1 compression, kN; grey: ±{:g} %{}", 100 * kCompressionUncertainty,
                            has_shares ? "; below: height is share of time" : ""));
   CompressionPanel(trial, scale, rows_top - 1.6).Draw(drawing);
+  DrawMarks(context.marks, scale, rows_bottom, drawing);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     DrawRow(rows[i], rows_top + kTimelinePitchMm * static_cast<double>(i), scale, drawing);
   }

@@ -40,7 +40,7 @@ struct RecordOptions {
   void List(options::OptionList& option) {
     option("source", source, "udp://[address]:port, tcp://[address]:port, a capture or a .bin");
     option("from", from, "machines that may send, such as 192.168.1.20,10.0.0.0/8; not given: all");
-    option("out", out, "file to write, .pcap; an existing one is replaced only with --force");
+    option("out", out, "file to write, .pcap or .pcapng; an existing one is replaced only with --force");
     option("rotate_mb", rotate_mb, "size at which the next file (take-0002.pcap) begins");
     option("seconds", seconds, "length of the recording");
     option("force", force, "replace the file, and the numbered ones of --rotate_mb");
@@ -139,8 +139,9 @@ void CheckRecordOptions(const RecordOptions& options) {
     throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or {} to 1e9 MB",
                                  *options.rotate_mb, kMinMb));
   }
-  if (fs::path(*options.out).extension() != ".pcap") {
-    throw UsageError("--out=" + *options.out + ": expected a name that ends in .pcap");
+  const fs::path ending = fs::path(*options.out).extension();
+  if (ending != ".pcap" && ending != ".pcapng") {
+    throw UsageError("--out=" + *options.out + ": expected a name that ends in .pcap or .pcapng");
   }
   CheckIsNotSource(*options.source, *options.out, "--out=" + *options.out);
 }

@@ -150,6 +150,7 @@ void RenderOptions::List(options::OptionList& option) {
   moment.List(option);
   clip.List(option);
   pack.List(option);
+  option("marks", marks, kMarksHelp);
   view.List(option);
   backend.List(option);
   person.List(option);

@@ -17,6 +17,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
+#include "server/app/marks_value.h"
 #include "server/app/progress.h"
 #include "server/app/render/moments.h"
 #include "server/app/render/render_tasks.h"
@@ -42,7 +43,8 @@ class RenderRun {
         grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
         provenance_(options, plan.source, pool.info()),
         check_(provenance_, settings),
-        additions_(options.view, options.backend, people_) {
+        additions_(options.view, options.backend, people_),
+        track_(ReadTrack(options.marks)) {
     CheckMoments();
     for (const Output& output : plan.outputs) AddOutput(output);
     Prescan();
@@ -112,7 +114,11 @@ class RenderRun {
     if (found != tasks.end()) return found->second;
     ViewOptions view = options_.view;
     view.camera.Parse(camera);
-    return tasks.emplace(camera, make(RenderPlanner(view, additions_, fit))).first->second;
+    RenderPlanner planner(view, additions_, fit);
+    if (!track_.empty()) {
+      planner.ShowMarks([this](const SceneState& state) { return CaptionsAt(track_, state); });
+    }
+    return tasks.emplace(camera, make(std::move(planner))).first->second;
   }
 
   template <class Task>
@@ -288,7 +294,8 @@ class RenderRun {
   const TimeGrid grid_;
   const Provenance provenance_;
   const ResumeCheck check_;
-  const SceneAdditions additions_;           // of every planner
+  const SceneAdditions additions_;  // of every planner
+  const marks::MarkTrack track_;
   std::map<std::string, StillTask> stills_;  // by camera
   std::map<std::string, ClipTask> clips_;
   std::optional<std::int64_t> start_nanos_;  // of the first sample

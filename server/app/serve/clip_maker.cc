@@ -8,9 +8,11 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "core/system/clocks.h"
 #include "render/video.h"
+#include "server/app/marks_value.h"
 #include "server/picture/render_planner.h"
 
 namespace kinescope::app {
@@ -44,6 +46,17 @@ SceneState ClipMaker::StateAt(std::int64_t nanos) const {
   return shown;
 }
 
+// Moments of other runs of the server have clocks of their own.
+marks::MarkTrack ClipMaker::TrackOfThisRun() const {
+  if (book_ == nullptr) return {};
+  std::vector<marks::Mark> marks = book_->ChangedAfter(0, marks::kMostMarks);
+  marks.erase(std::remove_if(
+                  marks.begin(), marks.end(),
+                  [&](const marks::Mark& mark) { return mark.run_micros != book_->run_micros(); }),
+              marks.end());
+  return {marks, marks::TrackClock::kServer};
+}
+
 void ClipMaker::Make(const ClipMakerOrder& order, Workshop::Progress& progress) const {
   const auto [from, to] = order.span;
   if (!Await(to, progress)) return;
@@ -51,6 +64,8 @@ void ClipMaker::Make(const ClipMakerOrder& order, Workshop::Progress& progress) 
   view.camera.Parse(order.camera);
   view.title.Parse(order.title);
   RenderPlanner planner(view, SceneAdditions(view, settings_.backend, settings_.scene), Fit::kNow);
+  const marks::MarkTrack track = TrackOfThisRun();
+  planner.ShowMarks([&track](const SceneState& state) { return CaptionsAt(track, state); });
   const render::PictureSpec spec = planner.spec();
   render::VideoOptions video;
   video.rate = {kFramesPerSecond, 1};

@@ -10,6 +10,8 @@
 
 #include "server/app/serve/workshop.h"
 #include "server/history/history.h"
+#include "server/marks/mark_book.h"
+#include "server/marks/mark_track.h"
 #include "server/picture/backend.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_builder.h"
@@ -38,11 +40,13 @@ class ClipMaker {
  public:
   static constexpr int kFramesPerSecond = 30;
 
-  /// `history` is borrowed.
-  ClipMaker(ClipSettings settings, RendererFactory make_renderer, const history::History& history)
+  /// `history` and `book` are borrowed. `book`: of the marks that are shown; null: none.
+  ClipMaker(ClipSettings settings, RendererFactory make_renderer, const history::History& history,
+            const marks::MarkBook* book)
       : settings_(std::move(settings)),
         make_renderer_(std::move(make_renderer)),
-        history_(history) {}
+        history_(history),
+        book_(book) {}
 
   /// Waits for moments that have not come yet, and then makes the clip.
   /// @throws std::exception: the moments are gone, a full disk, ...
@@ -51,10 +55,12 @@ class ClipMaker {
  private:
   bool Await(std::int64_t nanos, const Workshop::Progress& progress) const;
   SceneState StateAt(std::int64_t nanos) const;
+  marks::MarkTrack TrackOfThisRun() const;
 
   const ClipSettings settings_;
   const RendererFactory make_renderer_;
   const history::History& history_;
+  const marks::MarkBook* book_;
 };
 
 }  // namespace kinescope::app

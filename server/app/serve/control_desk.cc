@@ -148,8 +148,8 @@ ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http:
   if (!wrong.empty()) return RefuseOrder(409, wrong);
   was_recording_ = true;
   ++files_revision_;
-  log_.Note(http::Name(role), "recording", "off", stem + ".pcap");
-  return JsonText(json{{"file", stem + ".pcap"}});
+  log_.Note(http::Name(role), "recording", "off", stem + recording::RawRecorder::kEnding);
+  return JsonText(json{{"file", stem + recording::RawRecorder::kEnding}});
 }
 
 tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder& order) const {

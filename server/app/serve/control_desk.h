@@ -78,6 +78,7 @@ class ControlDesk : public http::Controls {
   Result MakeOfTrial(const http::TrialOrder& order);
   std::string AddTrialClip(const recording::Trial& trial);
   std::string AddTrialReport(const recording::Trial& trial);
+  OptionTexts ReportOptionsOf(const recording::Trial& trial) const;
   tl::expected<ClipSpan, http::ControlRefusal> SpanOf(const http::ClipOrder& order) const;
   tl::expected<std::uint64_t, std::string> AddClip(const ClipSpan& span, const std::string& camera,
                                                    const std::string& title,

@@ -121,6 +121,16 @@ ControlDesk::Result ControlDesk::MakeOfTrial(const http::TrialOrder& order) {
   return JsonText(json{{"trial", trial->stem}, {"refused", refused}});
 }
 
+// Those of the person and the loads, and the marks so far.
+OptionTexts ControlDesk::ReportOptionsOf(const recording::Trial& trial) const {
+  OptionTexts options = OptionsFromLines(trial.options);
+  std::error_code ignored;
+  if (parts_.marks != nullptr && std::filesystem::exists(parts_.marks->file(), ignored)) {
+    SetOption(options, "marks", parts_.marks->file().string());
+  }
+  return options;
+}
+
 // "" or why not.
 std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
   if (parts_.clips == nullptr) return parts_.why_no_clips;
@@ -138,7 +148,7 @@ std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
 }
 
 std::string ControlDesk::AddTrialReport(const recording::Trial& trial) {
-  const auto recording = parts_.folder.Find(trial.stem + ".pcap");
+  const auto recording = parts_.folder.Find(trial.stem + recording::RawRecorder::kEnding);
   if (!recording) {
     return "no report: there is no recording of this trial" +
            (trial.recording_problem.empty() ? std::string() : "; " + trial.recording_problem);
@@ -147,7 +157,7 @@ std::string ControlDesk::AddTrialReport(const recording::Trial& trial) {
   const auto added =
       workshop_.Add("report", name,
                     [this, recording = *recording, report = parts_.folder.path() / name,
-                     options = OptionsFromLines(trial.options)](Workshop::Progress& progress) {
+                     options = ReportOptionsOf(trial)](Workshop::Progress& progress) {
                       if (parts_.recorder != nullptr)
                         parts_.recorder->AwaitSaved(recording.filename().string());
                       MakeReport(recording, report, options, progress);

@@ -10,7 +10,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::chrono::minutes kLongest(10);
+constexpr std::chrono::minutes kLongestReport(10);
 
 std::string LastLineOf(const std::string& text) {
   std::istringstream in(text);
@@ -81,7 +81,7 @@ void MakeReport(const std::filesystem::path& recording, const std::filesystem::p
                                       report.string()};
   for (const auto& [name, value] : options) command.push_back("--" + name + "=" + value);
   const ChildResult result =
-      RunChild(command, kLongest, [&progress] { return progress.is_wanted(); });
+      RunChild(command, kLongestReport, [&progress] { return progress.is_wanted(); });
   if (!progress.is_wanted()) return;
   if (result.was_too_slow) throw std::runtime_error("the report took more than ten minutes");
   if (result.exit_code == 0 && result.signal == 0) return;

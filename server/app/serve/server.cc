@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/json_text.h"
 #include "core/system/stop_signal.h"
 #include "server/alarms/alarm_json.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/input_merger.h"
 #include "server/http/answer.h"
+#include "server/marks/mark_json.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -86,6 +88,16 @@ auto StatusOf(const std::unique_ptr<Part>& part) {
   return part ? std::optional(part->status()) : std::nullopt;
 }
 
+// Its changes are comments in what is recorded meanwhile.
+std::unique_ptr<marks::MarkBook> BookOf(const ServeConfig& config,
+                                        recording::RawRecorder* recorder) {
+  if (!config.marks) return nullptr;
+  if (recorder == nullptr) return std::make_unique<marks::MarkBook>(*config.marks);
+  return std::make_unique<marks::MarkBook>(*config.marks, [recorder](const marks::Mark& mark) {
+    recorder->Comment("Kinescope mark: " + JsonText(marks::ToJson(mark)));
+  });
+}
+
 }  // namespace
 
 Server::Server(const ServeConfig& config)
@@ -96,7 +108,7 @@ Server::Server(const ServeConfig& config)
       source_(
           OpenAtTrueRate(config.source_url, config.loop, WithTap(config.source, recorder_.get()))),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
-      marks_(config.marks ? std::make_unique<marks::MarkBook>(*config.marks) : nullptr),
+      marks_(BookOf(config, recorder_.get())),
       webhook_(WebhookOf(config)),
       alarms_(
           config.alarms, IsLiveUrl(config.source_url),
@@ -138,7 +150,7 @@ void Server::StartPictures(const ServeConfig& config) {
   spdlog::info("first picture {:.2f} s after start, rendered by {}",
                Secs(MonotonicNanos() - start_nanos_), live_pictures_->status().renderer.renderer);
   if (config.clips && history_) {
-    clips_ = std::make_unique<ClipMaker>(*config.clips, make_renderer, *history_);
+    clips_ = std::make_unique<ClipMaker>(*config.clips, make_renderer, *history_, marks_.get());
   }
   if (!config.ros_camera) return;
   ros_camera_ = std::make_unique<RosCameraLoop>(

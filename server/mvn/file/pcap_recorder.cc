@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 
 #include "core/system/errors.h"
@@ -38,7 +39,8 @@ PcapRecorder::~PcapRecorder() {
 }
 
 void PcapRecorder::OnDatagram(const ReceivedDatagram& datagram) {
-  const Entry entry{datagram.from, datagram.to, datagram.arrival.wall_nanos, datagram.bytes.size()};
+  const Entry entry{datagram.from, datagram.to, datagram.arrival.wall_nanos, datagram.bytes.size(),
+                    false};
   static_assert(std::is_trivially_copyable_v<Entry>, "it is copied as bytes");
   const std::size_t size = sizeof entry + entry.size;
   std::unique_lock lock(mutex_);
@@ -57,6 +59,15 @@ void PcapRecorder::OnDatagram(const ReceivedDatagram& datagram) {
   }
   queue_.append(reinterpret_cast<const char*>(&entry), sizeof entry).append(datagram.bytes);
   if (queue_.size() >= wake_bytes_) filled_.notify_one();
+}
+
+void PcapRecorder::Comment(const std::string& text) {
+  Entry entry;
+  entry.size = text.size();
+  entry.is_comment = true;
+  const std::lock_guard lock(mutex_);
+  if (queue_.size() + sizeof entry + text.size() > queue_bytes_) return;
+  queue_.append(reinterpret_cast<const char*>(&entry), sizeof entry).append(text);
 }
 
 void PcapRecorder::Check() {
@@ -84,7 +95,12 @@ void PcapRecorder::WriteAll(const std::string& queue) {
     Entry entry;
     std::memcpy(&entry, queue.data() + at, sizeof entry);
     at += sizeof entry;
-    writer_.Write(entry.from, entry.to, entry.wall_nanos, {queue.data() + at, entry.size});
+    const std::string_view bytes(queue.data() + at, entry.size);
+    if (entry.is_comment) {
+      writer_.Comment(std::string(bytes));
+    } else {
+      writer_.Write(entry.from, entry.to, entry.wall_nanos, bytes);
+    }
     at += entry.size;
   }
 }

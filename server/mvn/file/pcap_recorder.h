@@ -37,6 +37,9 @@ class PcapRecorder : public DatagramSink {
   /// after at most 0.5 s. @throws SourceError if writing failed since the last call.
   void OnDatagram(const ReceivedDatagram& datagram) override;
 
+  /// A comment on the next datagram that is written (PcapWriter::Comment). Any thread.
+  void Comment(const std::string& text);
+
   /// @throws SourceError if writing failed; call it now and then while no datagrams arrive.
   void Check();
 
@@ -59,6 +62,7 @@ class PcapRecorder : public DatagramSink {
     Endpoint from, to;
     std::int64_t wall_nanos = 0;
     std::size_t size = 0;
+    bool is_comment = false;
   };
 
   void Run();

@@ -16,6 +16,7 @@
 #include "core/system/errors.h"
 #include "core/system/words.h"
 #include "server/mvn/file/packet.h"
+#include "server/mvn/file/pcapng_blocks.h"
 
 namespace kinescope::mvn {
 namespace {
@@ -45,8 +46,10 @@ bool IsDeviceOrPipe(const fs::path& path) {
 
 }  // namespace
 
-// One capture file. libpcap writes into `pending_`, from which complete packets are passed to the
-// kernel.
+bool IsPcapng(const fs::path& path) { return path.extension() == ".pcapng"; }
+
+// One capture file. libpcap, or AppendPcapng*(), writes into `pending_`, from which complete
+// packets are passed to the kernel.
 class PcapWriter::File {
  public:
   /// @throws std::system_error
@@ -55,6 +58,10 @@ class PcapWriter::File {
     constexpr int kMode = 0644;
     descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC | creation, kMode);
     if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
+    if (IsPcapng(path)) {
+      AppendPcapngHead(pending_);
+      return;
+    }
     cookie_io_functions_t functions{};
     functions.write = [](void* self, const char* bytes, std::size_t size) {
       static_cast<File*>(self)->pending_.append(bytes, size);
@@ -71,21 +78,39 @@ class PcapWriter::File {
   }
 
   ~File() {
-    pcap_dump_close(dumper_);
-    pcap_close(dead_);
+    if (dumper_ != nullptr) pcap_dump_close(dumper_);
+    if (dead_ != nullptr) pcap_close(dead_);
     if (descriptor_ >= 0) close(descriptor_);
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
+
+  // Of a packet, at most.
+  std::size_t SizeOf(const std::string& packet, const std::vector<std::string>& comments) const {
+    constexpr std::size_t kAroundPcap = 16, kAroundPcapng = 40, kAroundComment = 8;
+    if (dumper_ != nullptr) return kAroundPcap + packet.size();
+    std::size_t size = kAroundPcapng + packet.size();
+    for (const std::string& comment : comments) size += kAroundComment + comment.size();
+    return size;
+  }
 
   std::uint64_t bytes() const { return bytes_ + pending_.size(); }
   std::uint64_t packets() const { return packets_ + ends_.size(); }
   std::uint64_t kept_bytes() const { return bytes_; }
   std::uint64_t kept_packets() const { return packets_; }
 
-  void Add(const pcap_pkthdr& header, const std::string& packet) {
-    pcap_dump(reinterpret_cast<unsigned char*>(dumper_), &header,
-              reinterpret_cast<const unsigned char*>(packet.data()));
+  void Add(std::int64_t nanos, const std::string& packet,
+           const std::vector<std::string>& comments) {
+    if (dumper_ == nullptr) {
+      AppendPcapngPacket(nanos, packet, comments, pending_);
+    } else {
+      pcap_pkthdr header{};
+      header.ts.tv_sec = nanos / kNanosPerSecond;
+      header.ts.tv_usec = nanos % kNanosPerSecond;  // nanoseconds in this format
+      header.caplen = header.len = static_cast<bpf_u_int32>(packet.size());
+      pcap_dump(reinterpret_cast<unsigned char*>(dumper_), &header,
+                reinterpret_cast<const unsigned char*>(packet.data()));
+    }
     ends_.push_back(pending_.size());
     if (pending_.size() >= kFlushBytes) Flush();
   }
@@ -113,6 +138,10 @@ class PcapWriter::File {
     pending_.clear();
     ends_.clear();
     if (error != 0) throw std::system_error(error, std::generic_category());
+  }
+
+  void AddAtEnd(std::int64_t nanos, const std::vector<std::string>& comments) {
+    if (dumper_ == nullptr && descriptor_ >= 0) AppendPcapngEnd(nanos, comments, pending_);
   }
 
   /// Some file systems report a full disk only here. @throws std::system_error
@@ -178,7 +207,7 @@ void PcapWriter::OpenFirst() {
 }
 
 void PcapWriter::OpenNext() {
-  Close();
+  Try([this] { file_->Close(); });
   closed_datagrams_ += file_->kept_packets();
   closed_bytes_ += file_->kept_bytes();
   file_.reset();
@@ -219,17 +248,17 @@ void PcapWriter::Try(Action&& action) {
 void PcapWriter::Write(const Endpoint& from, const Endpoint& to, std::int64_t wall_nanos,
                        std::string_view datagram) {
   WriteUdpPacket(from, to, datagram, packet_);
-  const std::int64_t nanos = std::clamp<std::int64_t>(wall_nanos, 0, kLatestNanos);
-  pcap_pkthdr header{};
-  header.ts.tv_sec = nanos / kNanosPerSecond;
-  header.ts.tv_usec = nanos % kNanosPerSecond;  // nanoseconds in this format
-  header.caplen = header.len = static_cast<bpf_u_int32>(packet_.size());
-  constexpr std::size_t kRecordHeaderBytes = 16;
-  const std::uint64_t size = file_->bytes() + kRecordHeaderBytes + packet_.size();
+  newest_nanos_ = std::clamp<std::int64_t>(wall_nanos, 0, kLatestNanos);
+  const std::uint64_t size = file_->bytes() + file_->SizeOf(packet_, comments_);
   if (settings_.rotate_bytes > 0 && file_->packets() > 0 && size > settings_.rotate_bytes) {
     OpenNext();
   }
-  Try([&] { file_->Add(header, packet_); });
+  Try([&] { file_->Add(newest_nanos_, packet_, comments_); });
+  comments_.clear();
+}
+
+void PcapWriter::Comment(std::string text) {
+  if (IsPcapng(settings_.path)) comments_.push_back(std::move(text));
 }
 
 void PcapWriter::Flush() {
@@ -237,7 +266,11 @@ void PcapWriter::Flush() {
 }
 
 void PcapWriter::Close() {
-  Try([this] { file_->Close(); });
+  Try([this] {
+    if (!comments_.empty()) file_->AddAtEnd(newest_nanos_, comments_);
+    comments_.clear();
+    file_->Close();
+  });
 }
 
 std::uint64_t PcapWriter::datagrams() const {

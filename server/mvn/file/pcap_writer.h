@@ -1,6 +1,6 @@
-/// Writes datagrams as a capture that tcpdump, Wireshark and pcap_datagrams.h read: pcap with
-/// nanoseconds, link type raw IP, each datagram one complete UDP packet with its sender and
-/// receiver (also if it was received over TCP).
+/// Writes datagrams as a capture that tcpdump, Wireshark and pcap_datagrams.h read: pcap, or pcapng
+/// for names that end in .pcapng, with nanoseconds, link type raw IP, each datagram one complete
+/// UDP packet with its sender and receiver (also if it was received over TCP).
 ///
 /// The file always ends with a complete packet, however the program ends: complete packets are
 /// passed to the kernel at once, and after a failed write (disk full) the file is truncated to the
@@ -39,6 +39,8 @@ class PcapWriter {
   /// afterwards.
   void Write(const Endpoint& from, const Endpoint& to, std::int64_t wall_nanos,
              std::string_view datagram);
+  /// A comment on the next packet; after the last one, of the interface. Only pcapng keeps it.
+  void Comment(std::string text);
   void Flush();  // @throws SourceError like Write()
   void Close();  // @throws SourceError like Write(); waits for the disk
 
@@ -60,6 +62,8 @@ class PcapWriter {
   std::size_t number_ = 1;
   std::unique_ptr<File> file_;
   std::string packet_;                  // under construction
+  std::vector<std::string> comments_;   // on the next packet
+  std::int64_t newest_nanos_ = 0;       // of the packets, wall clock
   std::uint64_t closed_datagrams_ = 0;  // in the files before the current one
   std::uint64_t closed_bytes_ = 0;
 };

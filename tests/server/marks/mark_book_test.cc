@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/system/errors.h"
 #include "server/marks/mark_json.h"
@@ -228,6 +229,22 @@ TEST(MarkJson, AcceptsNoOtherShape) {
     other["id"] = nlohmann::json::parse(number);
     EXPECT_FALSE(ReadMark(other.dump())) << number;
   }
+}
+
+TEST(MarkBook, TellsOfEachChangeThatIsInTheFile) {
+  const TempFolder folder;
+  std::vector<std::string> heard;
+  MarkBook book({folder.path() / "marks.jsonl", {}}, [&](const Mark& mark) {
+    heard.push_back(mark.text + (mark.is_removed ? " removed" : mark.end ? " ended" : ""));
+  });
+  NewMark span = Text("lift");
+  span.is_span = true;
+  const auto added = book.Add(span);
+  ASSERT_TRUE(added);
+  ASSERT_TRUE(book.End(added->id, At(9)));
+  EXPECT_FALSE(book.Remove(17));
+  ASSERT_TRUE(book.Remove(added->id));
+  EXPECT_THAT(heard, ElementsAre("lift", "lift ended", "lift removed"));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -61,13 +63,30 @@ TEST_F(RawRecorderTest, WritesWhatComesBetweenStartAndStop) {
   Send(recorder, DatagramOf("02", "two"));
   recorder.Stop();
   Send(recorder, DatagramOf("02", "after"));
-  recorder.AwaitSaved("take.pcap");
+  recorder.AwaitSaved("take.pcapng");
   const auto status = recorder.status();
   EXPECT_EQ(status.state, RawRecorder::State::kOff);
   EXPECT_EQ(status.datagrams, 2U);
-  EXPECT_EQ(status.bytes, std::filesystem::file_size(top_ / "take.pcap"));
+  EXPECT_EQ(status.bytes, std::filesystem::file_size(top_ / "take.pcapng"));
   EXPECT_EQ(status.problem, "");
-  EXPECT_THAT(Recorded("take.pcap"), ElementsAre("one", "two"));
+  EXPECT_THAT(Recorded("take.pcapng"), ElementsAre("one", "two"));
+}
+
+TEST_F(RawRecorderTest, KeepsCommentsWithThePacketsAfterThem) {
+  RawRecorder recorder(folder_);
+  recorder.Comment("before it records");
+  ASSERT_EQ(recorder.Start("take"), "");
+  Send(recorder, DatagramOf("02", "one"));
+  recorder.Comment("belt slipped");
+  Send(recorder, DatagramOf("02", "two"));
+  recorder.Stop();
+  recorder.AwaitSaved("take.pcapng");
+  EXPECT_THAT(Recorded("take.pcapng"), ElementsAre("one", "two"));
+  std::ifstream in(top_ / "take.pcapng", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(bytes.find("before it records"), std::string::npos);
+  EXPECT_GT(bytes.find("belt slipped"), bytes.find("two"));
+  EXPECT_NE(bytes.find("belt slipped"), std::string::npos);
 }
 
 TEST_F(RawRecorderTest, BeginsWithTheNewestNamesAndLengthsOfTheStream) {
@@ -79,22 +98,22 @@ TEST_F(RawRecorderTest, BeginsWithTheNewestNamesAndLengthsOfTheStream) {
   ASSERT_EQ(recorder.Start("take"), "");
   Send(recorder, DatagramOf("02", "pose"));
   recorder.Stop();
-  recorder.AwaitSaved("take.pcap");
-  EXPECT_THAT(Recorded("take.pcap"), ElementsAre("name", "lengths 1", "lengths 2", "pose"));
+  recorder.AwaitSaved("take.pcapng");
+  EXPECT_THAT(Recorded("take.pcapng"), ElementsAre("name", "lengths 1", "lengths 2", "pose"));
 }
 
 TEST_F(RawRecorderTest, RefusesASecondRecordingAMissingFolderAndAFullDisk) {
   RawRecorder recorder(folder_);
   ASSERT_EQ(recorder.Start("one"), "");
-  EXPECT_THAT(recorder.Start("two"), HasSubstr("a recording runs already: one.pcap"));
+  EXPECT_THAT(recorder.Start("two"), HasSubstr("a recording runs already: one.pcapng"));
   recorder.Stop();
-  recorder.AwaitSaved("one.pcap");
+  recorder.AwaitSaved("one.pcapng");
   free_bytes_ = 5'400'000;
   EXPECT_THAT(recorder.Start("two"), HasSubstr("the disk is full: 5.4 MB are free"));
   const Folder missing(top_ / "missing", false);
   RawRecorder other(missing);
   EXPECT_THAT(other.Start("two"), HasSubstr("is missing"));
-  EXPECT_THAT(top_.Names(), ElementsAre("one.pcap"));
+  EXPECT_THAT(top_.Names(), ElementsAre("one.pcapng"));
 }
 
 TEST_F(RawRecorderTest, StopsByItselfBeforeTheDiskIsFullAndKeepsWhatItHas) {
@@ -108,7 +127,7 @@ TEST_F(RawRecorderTest, StopsByItselfBeforeTheDiskIsFullAndKeepsWhatItHas) {
   EXPECT_THAT(recorder.status().problem,
               HasSubstr("the disk is full: recording stopped while 1.0 MB"));
   Send(recorder, DatagramOf("02", "too late"));
-  EXPECT_THAT(Recorded("take.pcap"), ElementsAre("kept"));
+  EXPECT_THAT(Recorded("take.pcapng"), ElementsAre("kept"));
 }
 
 TEST_F(RawRecorderTest, SavesWhatItHasWhenTheServerEnds) {
@@ -117,7 +136,7 @@ TEST_F(RawRecorderTest, SavesWhatItHasWhenTheServerEnds) {
     ASSERT_EQ(recorder.Start("take"), "");
     Send(recorder, DatagramOf("02", "last"));
   }
-  EXPECT_THAT(Recorded("take.pcap"), ElementsAre("last"));
+  EXPECT_THAT(Recorded("take.pcapng"), ElementsAre("last"));
 }
 
 TEST_F(RawRecorderTest, KeepsTheDescriptionsOfAFloodOfSendersBounded) {

@@ -1,0 +1,60 @@
+#include "server/app/loads/trial_marks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/system/clocks.h"
+#include "server/table/load_rows.h"
+
+namespace kinescope::app {
+
+std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& first,
+                               const SceneState& last) {
+  std::vector<TrialMark> found;
+  for (const marks::TrackMark* const each : track.Between(first, last)) {
+    const marks::Mark& mark = each->mark;
+    found.push_back({track.SecsAfter(first, each->from_nanos),
+                     track.SecsAfter(first, each->to_nanos), each->is_span(),
+                     mark.kind == marks::Kind::kChange, mark.button, mark.text, mark.role});
+  }
+  return found;
+}
+
+MarkLoads LoadsAround(const TrialMark& mark, const LoadTrial& trial) {
+  const double window = mark.is_span ? 0 : Secs(marks::kWindowNanos);
+  MarkLoads found;
+  found.from_secs = mark.from_secs - window;
+  found.to_secs = mark.to_secs + window;
+  for (const TrialSample& sample : trial.curves()) {
+    const double secs = trial.SecsOf(sample.stamp_nanos);
+    if (secs < found.from_secs || secs > found.to_secs) continue;
+    for (std::size_t joint = 0; joint < sample.joints.size(); ++joint) {
+      const TrialSample::Joint& load = sample.joints[joint];
+      const bool is_higher = !found.highest || load.ratio > found.highest->ratio;
+      if (load.band == LoadClass::kUnknown || !is_higher) continue;
+      found.highest = {joint, load.ratio, load.band, secs};
+    }
+    if (std::isfinite(sample.compression)) {
+      found.compression_N =
+          std::max(found.compression_N.value_or(sample.compression), double{sample.compression});
+    }
+  }
+  return found;
+}
+
+std::string TimesText(const TrialMark& mark) {
+  return mark.is_span ? fmt::format("{:.2f} to {:.2f} s", mark.from_secs, mark.to_secs)
+                      : fmt::format("{:.2f} s", mark.from_secs);
+}
+
+std::string LoadsText(const MarkLoads& loads) {
+  if (!loads.highest) return "no load known";
+  std::string text =
+      fmt::format("{:.2f} {}", loads.highest->ratio, ScoredLabel(loads.highest->joint));
+  if (loads.compression_N) text += fmt::format(", {:.0f} N", *loads.compression_N);
+  return text;
+}
+
+}  // namespace kinescope::app
