@@ -101,8 +101,8 @@ std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, doub
                                                LayerFormat format, const Image* below);
 
 struct PlotModule {
-  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
-            PlotSwatch, PlotText, Image, Ink, Tile, Font, Glyph>
+  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotFlag,
+            PlotMark, PlotSwatch, PlotText, Image, Ink, Tile, Font, Glyph>
       abi;
   std::string (*svg)(const Plot& plot);
   Image (*image)(const Plot& plot, double px_per_pt);

@@ -40,7 +40,8 @@ struct RecordOptions {
   void List(options::OptionList& option) {
     option("source", source, "udp://[address]:port, tcp://[address]:port, a capture or a .bin");
     option("from", from, "machines that may send, such as 192.168.1.20,10.0.0.0/8; not given: all");
-    option("out", out, "file to write, .pcap or .pcapng; an existing one is replaced only with --force");
+    option("out", out,
+           "file to write, .pcap or .pcapng; an existing one is replaced only with --force");
     option("rotate_mb", rotate_mb, "size at which the next file (take-0002.pcap) begins");
     option("seconds", seconds, "length of the recording");
     option("force", force, "replace the file, and the numbered ones of --rotate_mb");
