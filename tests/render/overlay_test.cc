@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "core/system/errors.h"
 #include "core/system/utf8.h"
@@ -21,6 +23,42 @@ TEST(Overlay, WritesTimesAsHoursMinutesAndSeconds) {
   EXPECT_EQ(TimeCode(100LL * 3'600'000), "100:00:00.000");
   EXPECT_EQ(TimeCode(-1'500), "-00:00:01.500");
   EXPECT_FALSE(TimeCode(std::numeric_limits<std::int64_t>::min()).empty());
+}
+
+// The pixels that captions of marks paint, of a picture that has no other overlay.
+int MarkedPixels(const std::vector<std::string>& marks, int width = 640, int height = 360) {
+  PictureSpec spec;
+  spec.width = width;
+  spec.height = height;
+  spec.parts = {};
+  for (const OverlayInfo& info : kOverlays) spec.parts.*info.part = false;
+  spec.parts.marks = true;
+  spec.marks = marks;
+  Image image{width, height,
+              std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height), 100)};
+  Canvas canvas(image);
+  DrawnView view;
+  view.tile = {0, 0, width, height};
+  Overlay().Paint(canvas, SceneState(), {view}, spec);
+  int changed = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] == 100 && image.rgba[i + 1] == 100 && image.rgba[i + 2] == 100) continue;
+    ++changed;
+    const auto x = static_cast<int>(i / 4) % width;
+    EXPECT_LT(x, width / 2) << "in the left half";
+  }
+  return changed;
+}
+
+TEST(Overlay, ShowsMarksWhereThereIsRoom) {
+  EXPECT_EQ(MarkedPixels({}), 0);
+  const int one = MarkedPixels({"belt slipped"});
+  EXPECT_GT(one, 500);
+  EXPECT_GT(MarkedPixels({"belt slipped", "3  lift"}), one);
+  EXPECT_EQ(MarkedPixels({"belt slipped"}, 200, 120), 0) << "too small for texts";
+  const int four = MarkedPixels({"a", "a", "a", "a"});
+  EXPECT_LT(MarkedPixels(std::vector<std::string>(5000, "a")), 3 * four) << "four lines at most";
+  EXPECT_GT(MarkedPixels({std::string(100'000, 'x') + "\xFF"}), one) << "cut off";
 }
 
 TEST(Font, DecodesUtf8AndReplacesInvalidBytes) {

@@ -11,6 +11,7 @@
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
+#include "server/app/loads/report_text.h"
 #include "server/app/loads/trial_intervals.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
@@ -160,9 +161,9 @@ std::string Described(const LoadTrial& trial, const TrialContext& context) {
   if (!trial.newest().name.empty()) text += ", " + trial.newest().name;
   for (const Fact& fact : FactsOf(trial, context)) {
     if (fact.label == "hand load" && fact.is_assumed) continue;
-    if (fact.label == "body table" || fact.label == "load mode" || fact.label == "load metric") {
-      continue;
-    }
+    const bool is_method = fact.label == "body table" || fact.label == "load mode" ||
+                           fact.label == "load metric" || fact.label == "floor";
+    if (is_method) continue;
     const bool needs_label = fact.label == "hand load" || fact.label == "added mass";
     text += fmt::format(", {}{}{}", needs_label ? fact.label + " " : "", fact.value,
                         fact.is_assumed ? " (assumed)" : "");
@@ -181,13 +182,21 @@ void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, P
                         7.5, false, kFaint});
 }
 
+// As much of a line of small text as is right of the axis.
+std::string FittingLine(const std::string& text) {
+  constexpr double kSize = 7.5, kRoomMm = 150;
+  constexpr double kWiderFont = 1.2;  // DejaVu Sans than Arial
+  return Shortened(text, kWiderFont * kSize, kRoomMm);
+}
+
 // Below the plot, as many as there are.
 void AddMarkNames(const std::vector<TrialMark>& marks, double left, Plot& plot) {
   constexpr double kSize = 7.5, kLine = 10;
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    plot.texts.push_back({left, plot.height,
-                          fmt::format("{}  {}  ({})", i + 1, marks[i].text, TimesText(marks[i])),
-                          kSize, false, kInk});
+    plot.texts.push_back(
+        {left, plot.height,
+         FittingLine(fmt::format("{}  {}: {}", i + 1, TimesText(marks[i]), marks[i].text)), kSize,
+         false, kInk});
     plot.height += kLine;
   }
 }
@@ -199,7 +208,7 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
   Plot plot;
   plot.width = 480;
   plot.texts = {{kLeft, 20, std::string(ScoredLabel(joint)), 12, true, kInk},
-                {kLeft, 33, Described(trial, context), 7.5, false, kFaint}};
+                {kLeft, 33, FittingLine(Described(trial, context)), 7.5, false, kFaint}};
 
   PlotPanel ratio;
   ratio.left = kLeft;

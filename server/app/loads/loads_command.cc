@@ -219,6 +219,7 @@ nlohmann::json ReportOf(const Recording& recording, const TrialContext& context,
                         const SourceIdentity& identity, LoadsOptions& options) {
   options::OptionList inputs;
   options.loads.List(inputs);
+  inputs("marks", options.marks, "file of marks");
   const nlohmann::json hash =
       identity.digest ? nlohmann::json(identity.digest->sha256) : nlohmann::json(nullptr);
   nlohmann::json people = nlohmann::json::array();

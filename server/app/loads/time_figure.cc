@@ -171,10 +171,11 @@ void DrawMarks(const std::vector<TrialMark>& marks, const TimeScale& scale, doub
     }
     const std::string number = std::to_string(i + 1);
     const double width = TextWidthMm(number, kMarkPt) + 0.8;
-    if (from < free_from || from + width > kAxisRight + 8) continue;
-    drawing.Fill({from, kCurveTop, width, 3}, {1, 1, 1});
-    drawing.Text(from + 0.4, kCurveTop + 2.4, number, {SvgAnchor::kStart, true, kMarkInk});
-    free_from = from + width + 0.4;
+    const double left = from + width > kAxisRight ? from - width : from;
+    if (left < free_from) continue;
+    drawing.Fill({left, kCurveTop, width, 3}, {1, 1, 1});
+    drawing.Text(left + 0.4, kCurveTop + 2.4, number, {SvgAnchor::kStart, true, kMarkInk});
+    free_from = left + width + 0.4;
   }
 }
 

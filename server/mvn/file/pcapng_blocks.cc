@@ -9,7 +9,7 @@ constexpr std::uint32_t kSection = 0x0A0D0D0A, kInterface = 1, kStatistics = 5, 
 constexpr std::uint32_t kByteOrder = 0x1A2B3C4D;
 constexpr std::uint16_t kEndOfOptions = 0, kComment = 1, kApplication = 4, kTimeResolution = 9;
 constexpr std::uint16_t kRawIp = 101;  // LINKTYPE_RAW
-constexpr std::uint32_t kLongestPacket = 1 << 18;
+constexpr std::uint32_t kSnapLength = 1 << 18;
 constexpr char kNanoseconds = 9;  // 10^-9 s
 
 // Little-endian on all machines; the byte order is stated in the file.
@@ -79,7 +79,7 @@ void AppendPcapngHead(std::string& out) {
   AppendBlock(kInterface, out, [&] {
     Append(kRawIp, out);
     Append(std::uint16_t{0}, out);
-    Append(kLongestPacket, out);
+    Append(kSnapLength, out);
     AppendOption(kTimeResolution, std::string_view(&kNanoseconds, 1), out);
     AppendOption(kEndOfOptions, "", out);
   });
