@@ -115,7 +115,7 @@ export class ControlTrials {
     problem.textContent = [trial.to_micros === null ? 'not stopped' : place(trial.secs), trial.recording_problem]
       .filter(Boolean).join(' · ');
     files.className = 'trial-files';
-    for (const [ending, text] of [['mp4', 'clip'], ['html', 'report'], ['pcap', 'recording']]) {
+    for (const [ending, text] of [['mp4', 'clip'], ['html', 'report'], ['pcapng', 'recording']]) {
       const name = `${trial.trial}.${ending}`;
       if (names.includes(name)) files.append(this.link(name, text), ' ');
     }

@@ -39,8 +39,8 @@ class Folder {
   /// replaced.
   std::string FreeStem(const std::string& stem) const;
 
-  /// The file of that name, if it is one of ours: a pcap, mp4, html or json in this folder, no
-  /// link, with a name as NamePart() and FreeStem() make them.
+  /// The file of that name, if it is one of ours: a pcapng, pcap, mp4, html or json in this folder,
+  /// no link, with a name as NamePart() and FreeStem() make them.
   std::optional<std::filesystem::path> Find(const std::string& name) const;
 
   /// Those that Find() finds, the newest first, at most `most`.
