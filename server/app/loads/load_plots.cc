@@ -189,16 +189,19 @@ std::string FittingLine(const std::string& text) {
   return Shortened(text, kWiderFont * kSize, kRoomMm);
 }
 
-// Below the plot, as many as there are.
+// Below the plot.
 void AddMarkNames(const std::vector<TrialMark>& marks, double left, Plot& plot) {
   constexpr double kSize = 7.5, kLine = 10;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    plot.texts.push_back(
-        {left, plot.height,
-         FittingLine(fmt::format("{}  {}: {}", i + 1, TimesText(marks[i]), marks[i].text)), kSize,
-         false, kInk});
+  constexpr std::size_t kMost = 20;
+  const std::size_t shown = marks.size() > kMost ? kMost - 1 : marks.size();
+  const auto add = [&](const std::string& line) {
+    plot.texts.push_back({left, plot.height, FittingLine(line), kSize, false, kInk});
     plot.height += kLine;
+  };
+  for (std::size_t i = 0; i < shown; ++i) {
+    add(fmt::format("{}  {}: {}", i + 1, TimesText(marks[i]), marks[i].text));
   }
+  if (shown < marks.size()) add(fmt::format("and {} more", marks.size() - shown));
 }
 
 }  // namespace

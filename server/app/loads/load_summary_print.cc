@@ -1,6 +1,7 @@
 // The two forms of a summary: text for the terminal, JSON for other programs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/system/utf8.h"
@@ -131,9 +132,15 @@ std::string SummaryText(const TrialSummary& summary) {
       summary.limits[0], summary.limits[1]);
   if (!summary.marks.empty())
     text += "\nMarks, with the highest load and L5/S1 compression around:\n";
-  for (const TrialSummary::MarkSummary& each : summary.marks) {
+  constexpr std::size_t kMostMarks = 40;
+  const std::size_t shown = std::min(summary.marks.size(), kMostMarks);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const TrialSummary::MarkSummary& each = summary.marks[i];
     text += fmt::format("  {:<20} {}  ({})\n", TimesText(each.mark), PrintableLine(each.mark.text),
                         LoadsText(each.loads));
+  }
+  if (shown < summary.marks.size()) {
+    text += fmt::format("  and {} more, in --json\n", summary.marks.size() - shown);
   }
   if (!summary.notes.empty()) text += '\n';
   for (const std::string& note : summary.notes) text += note + '\n';

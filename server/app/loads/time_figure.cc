@@ -160,10 +160,13 @@ void DrawMarks(const std::vector<TrialMark>& marks, const TimeScale& scale, doub
                SvgDrawing& drawing) {
   constexpr Rgb kMarkInk = {0.15, 0.33, 0.62};
   const SvgStroke stroke = {kMarkInk, 0.25, "1.4 0.5"};
-  double free_from = kAxisLeft;
+  constexpr double kApart = 0.3;  // mm; nearer lines would be one
+  double free_from = kAxisLeft, last = -1;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const double from = scale.X(std::clamp(marks[i].from_secs, scale.from, scale.to));
     const double to = scale.X(std::clamp(marks[i].to_secs, scale.from, scale.to));
+    if (from < last + kApart && to < last + kApart) continue;
+    last = from;
     drawing.Line({{from, kCurveTop}, {from, bottom}}, stroke);
     if (to > from) {
       drawing.Line({{to, kCurveTop}, {to, bottom}}, stroke);

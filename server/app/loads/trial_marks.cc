@@ -27,9 +27,14 @@ MarkLoads LoadsAround(const TrialMark& mark, const LoadTrial& trial) {
   MarkLoads found;
   found.from_secs = mark.from_secs - window;
   found.to_secs = mark.to_secs + window;
-  for (const TrialSample& sample : trial.curves()) {
+  const std::vector<TrialSample>& samples = trial.curves();
+  auto at = std::partition_point(samples.begin(), samples.end(), [&](const TrialSample& sample) {
+    return trial.SecsOf(sample.stamp_nanos) < found.from_secs;
+  });
+  for (; at != samples.end(); ++at) {
+    const TrialSample& sample = *at;
     const double secs = trial.SecsOf(sample.stamp_nanos);
-    if (secs < found.from_secs || secs > found.to_secs) continue;
+    if (secs > found.to_secs) break;
     for (std::size_t joint = 0; joint < sample.joints.size(); ++joint) {
       const TrialSample::Joint& load = sample.joints[joint];
       const bool is_higher = !found.highest || load.ratio > found.highest->ratio;

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "server/app/loads/load_plots.h"
+#include "server/app/loads/load_summary.h"
+#include "server/app/loads/report_figures.h"
 #include "server/table/load_rows.h"
 #include "tests/server/app/loads/trial_scenes.h"
 
@@ -42,6 +45,21 @@ TEST(TrialMarks, HaveTheHighestLoadsAroundThem) {
 
 TEST(TrialMarks, SayThatNoLoadIsKnown) {
   EXPECT_EQ(LoadsText(LoadsAround(Moment(50), CountedTrial())), "no load known");
+}
+
+// A key that was held down all day.
+TEST(TrialMarks, AreShortInTextsHoweverManyThereAre) {
+  const LoadTrial trial = CountedTrial();
+  TrialContext context;
+  context.marks.assign(10'000, Moment(5));
+  for (TrialMark& mark : context.marks) mark.text = "slip";
+  const render::Plot plot = JointPlot(trial, context, 0);
+  EXPECT_LT(plot.height, 1000);
+  EXPECT_EQ(plot.texts.back().text, "and 9981 more");
+  EXPECT_LT(TimeFigure(trial, context, 55).size(), 100'000U);
+  const TrialSummary summary = SummaryOf(trial, context);
+  EXPECT_EQ(summary.marks.size(), 10'000U);
+  EXPECT_THAT(SummaryText(summary), ::testing::HasSubstr("and 9960 more, in --json"));
 }
 
 TEST(TrialMarks, HaveTimesOfTheRecording) {
