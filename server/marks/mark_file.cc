@@ -111,7 +111,7 @@ tl::expected<MarkFile, std::string> MarkFile::Open(const std::filesystem::path& 
 
 std::string MarkFile::Read(std::vector<Mark>& marks) {
   std::string text;
-  const std::string problem = ReadText(descriptor_, text);
+  std::string problem = ReadText(descriptor_, text);
   if (!problem.empty()) return problem;
   unread_lines_ = ReadLines(text, marks);
   // A line that a full disk or a power failure cut must not get the next one at its end.
