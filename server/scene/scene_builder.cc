@@ -243,9 +243,9 @@ void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> ma
 
 void SceneBuilder::OnCaughtUp() {
   waited_nanos_ = 0;
-  if (current_.waited_nanos == 0) return;
+  const bool was_behind = current_.waited_nanos > kOverloadNanos;
   current_.waited_nanos = 0;
-  if (current_.liveness != Liveness::kNoData) Publish(current_.liveness);
+  if (was_behind && current_.liveness != Liveness::kNoData) Publish(current_.liveness);
 }
 
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {

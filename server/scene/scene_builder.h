@@ -83,7 +83,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// states.
   void SetWaited(std::int64_t nanos) { waited_nanos_ = nanos; }
 
-  /// Nothing waits any more: what is shown is the newest.
+  /// Nothing waits any more: what is shown is the newest. A state that said it was late is made
+  /// anew.
   void OnCaughtUp();
 
   /// Call it at least every 0.1 s with the monotonic clock while a live source is read: it detects

@@ -294,6 +294,22 @@ TEST(Exposure, IsContainedInTheStates) {
   EXPECT_GT(shoulder.band_secs[static_cast<std::size_t>(LoadClass::kMedium)], 1);
 }
 
+// Other datagrams of the suit come between its samples, and each sample has waited a little.
+TEST(Samples, MakeOneStateEach) {
+  Wired wired;
+  wired.RunOneSecond();
+  const std::uint64_t before = wired.last->number;
+  for (int i = 0; i < 10; ++i) {
+    wired.now += 1.0 / 60;
+    BodySample sample = TPose(wired.now, 0);
+    sample.arrival_nanos = MonotonicNanos() - 1'000'000;
+    wired.sink.OnSample(sample);
+    wired.sink.AfterPoll();
+    wired.sink.AfterPoll();
+  }
+  EXPECT_EQ(wired.last->number, before + 10);
+}
+
 TEST(Samples, OfWhichTheNewestWasSkippedAreShownWhenNoneWaitsAnyMore) {
   std::shared_ptr<const SceneState> last;
   SceneBuilder builder({}, "test", 0,
