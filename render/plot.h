@@ -51,6 +51,9 @@ struct PlotMark {
   std::string label;
 };
 
+/// Of moments and spans that a person marked, in plots and reports.
+inline constexpr Rgb kFlagInk = {0.15, 0.33, 0.62};
+
 /// A moment or a span of x: a line at each end, and a label above the first.
 struct PlotFlag {
   double from = 0, to = 0;

@@ -11,8 +11,7 @@
 namespace kinescope::render::plot {
 namespace {
 
-constexpr Rgb kInk = {0.13, 0.15, 0.19}, kFaint = {0.38, 0.41, 0.46}, kGrid = {0.88, 0.89, 0.91},
-              kFlag = {0.15, 0.33, 0.62};
+constexpr Rgb kInk = {0.13, 0.15, 0.19}, kFaint = {0.38, 0.41, 0.46}, kGrid = {0.88, 0.89, 0.91};
 constexpr double kTimelineHeight = 9, kTimelineGap = 2.5, kTick = 2.5;  // pt
 
 // So many decimals as tell neighbours apart, and no "-0".
@@ -180,15 +179,15 @@ class PanelDrawing {
     for (const PlotFlag& flag : p_.flags) {
       const double from = X(std::clamp(flag.from, p_.x_from, p_.x_to));
       const double to = X(std::clamp(flag.to, p_.x_from, p_.x_to));
-      pen_.Line(from, p_.top, from, bottom(), kFlag, 0.8, {4, 1.5});
+      pen_.Line(from, p_.top, from, bottom(), kFlagInk, 0.8, {4, 1.5});
       if (to > from) {
-        pen_.Line(to, p_.top, to, bottom(), kFlag, 0.8, {4, 1.5});
-        pen_.Line(from, p_.top + 0.6, to, p_.top + 0.6, kFlag, 1.2);
+        pen_.Line(to, p_.top, to, bottom(), kFlagInk, 0.8, {4, 1.5});
+        pen_.Line(from, p_.top + 0.6, to, p_.top + 0.6, kFlagInk, 1.2);
       }
       const double width = pen_.TextWidth(flag.label, size);
       if (flag.label.empty() || from + 2 < free_from) continue;
       const bool fits = from + 2 + width < p_.left + p_.width;
-      pen_.Text(fits ? from + 2 : from - 2, p_.top + size + 1, flag.label, size, kFlag,
+      pen_.Text(fits ? from + 2 : from - 2, p_.top + size + 1, flag.label, size, kFlagInk,
                 fits ? Pen::Anchor::kLeft : Pen::Anchor::kRight);
       free_from = from + 4 + width;
     }

@@ -91,23 +91,24 @@ void HttpSession::Read() {
   }
   if (std::exchange(is_first_, false) || incoming_.size() > 0) return ReadHeader();
   stream_.expires_after(shared_.patience.next_request);
-  stream_.async_read_some(incoming_.prepare(kFirstBytes),
-                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
-                            if (error) return;
-                            self->incoming_.commit(bytes);
-                            self->ReadHeader();
-                          });
+  ReadSome(&HttpSession::ReadHeader);
 }
 
 // On a port with TLS. A client that begins with something else is read as one of HTTP, and told.
 void HttpSession::Greet() {
   stream_.expires_after(shared_.patience.header);
-  stream_.async_read_some(incoming_.prepare(kFirstBytes),
-                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
-                            if (error) return;
-                            self->incoming_.commit(bytes);
-                            self->OnGreeting();
-                          });
+  ReadSome(&HttpSession::OnGreeting);
+}
+
+// At least one byte, then `next`; nothing if the client is gone.
+void HttpSession::ReadSome(void (HttpSession::*next)()) {
+  stream_.async_read_some(
+      incoming_.prepare(kFirstBytes),
+      [self = shared_from_this(), next](beast::error_code error, std::size_t bytes) {
+        if (error) return;
+        self->incoming_.commit(bytes);
+        (*self.*next)();
+      });
 }
 
 void HttpSession::OnGreeting() {

@@ -62,6 +62,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   struct Outgoing;
 
   void Greet();
+  void ReadSome(void (HttpSession::*next)());
   void OnGreeting();
   [[nodiscard]] bool MayBeginTls();
   void ReadHeader();

@@ -158,8 +158,7 @@ class CompressionPanel {
 // Numbers as in the list below the figure; those that would overlap are left out.
 void DrawMarks(const std::vector<TrialMark>& marks, const TimeScale& scale, double bottom,
                SvgDrawing& drawing) {
-  constexpr Rgb kMarkInk = {0.15, 0.33, 0.62};
-  const SvgStroke stroke = {kMarkInk, 0.25, "1.4 0.5"};
+  const SvgStroke stroke = {render::kFlagInk, 0.25, "1.4 0.5"};
   constexpr double kApart = 0.3;  // mm; nearer lines would be one
   double free_from = kAxisLeft, last = -1;
   for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -170,14 +169,14 @@ void DrawMarks(const std::vector<TrialMark>& marks, const TimeScale& scale, doub
     drawing.Line({{from, kCurveTop}, {from, bottom}}, stroke);
     if (to > from) {
       drawing.Line({{to, kCurveTop}, {to, bottom}}, stroke);
-      drawing.Line({{from, kCurveTop}, {to, kCurveTop}}, {kMarkInk, 0.5, ""});
+      drawing.Line({{from, kCurveTop}, {to, kCurveTop}}, {render::kFlagInk, 0.5, ""});
     }
     const std::string number = std::to_string(i + 1);
     const double width = TextWidthMm(number, kMarkPt) + 0.8;
     const double left = from + width > kAxisRight ? from - width : from;
     if (left < free_from) continue;
     drawing.Fill({left, kCurveTop, width, 3}, {1, 1, 1});
-    drawing.Text(left + 0.4, kCurveTop + 2.4, number, {SvgAnchor::kStart, true, kMarkInk});
+    drawing.Text(left + 0.4, kCurveTop + 2.4, number, {SvgAnchor::kStart, true, render::kFlagInk});
     free_from = left + width + 0.4;
   }
 }
