@@ -23,6 +23,10 @@ inline constexpr double kMetresPerNewton = 1e-3;
 inline constexpr double kMinForceShown = 20;  // N; below it the arrow is a dot
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
 inline constexpr Rgb kClayColor = {0.72, 0.69, 0.65};  // of --style clay
+/// Of reference poses: cool, apart from the floor, and no colour of a person or a class. They are
+/// mixed with the colours of the body.
+inline constexpr Rgb kGhostOnLight = {0.35, 0.45, 0.62}, kGhostOnDark = {0.60, 0.72, 0.92};
+inline constexpr double kGhostShare = 0.75;
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // tracked objects and props
 /// Of the x, y and z axis of a frame: the hues of RViz, paler than any load class.

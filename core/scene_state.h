@@ -107,6 +107,13 @@ struct PersonState {
   BodyForces forces;
 };
 
+/// A reference pose: a second, translucent body.
+struct Ghost {
+  PersonState person;
+  double opacity = 0.35;  // 0..1
+  std::string name = {};  // for the legend; "": no entry
+};
+
 /// A tracked object beside the people (mvn-protocol.md 4.2), in its own frame as streamed.
 struct TrackedObject {
   int character = 0;  // id of the character that carries it
@@ -127,6 +134,8 @@ struct RobotState {
   Eigen::AlignedBox3d bounds;  // of its rendered shapes (render::Renderer::Bounds), world, m;
                                // empty: unknown
 };
+
+inline constexpr int kFirstGhost = 1'000'000;  // MVN's characters are below 256
 
 enum class Liveness {
   kNoData,  // no sample received yet
@@ -170,6 +179,12 @@ struct SceneState {
   std::vector<LeftOutPerson> left_out;  // with a sample in the last second that is implausible
   std::vector<TrackedObject> objects;   // those with a sample in the last second
   std::vector<RobotState> robots;
+  /// Reference poses beside the people of a live scene. Their people have characters from
+  /// kFirstGhost on, one for each.
+  std::vector<Ghost> ghosts;
+  /// Increases with every change of `robots` or `markers`; 0: there were none yet, or they are not
+  /// known, as of former states.
+  std::uint64_t surroundings = 0;
   /// External markers. Shared, so that unchanged markers cost nothing; a changed marker is a new
   /// object. Never null. A marker with a defect is reported and not rendered.
   std::vector<std::shared_ptr<const SceneMarker>> markers;

@@ -68,13 +68,6 @@ struct Trail {
   std::string name = {};  // of the point, for the legend; "": no entry
 };
 
-/// A reference pose: a second, translucent body.
-struct Ghost {
-  PersonState person;
-  double opacity = 0.35;  // 0..1
-  std::string name = {};  // for the legend; "": no entry
-};
-
 /// How finely bodies are rendered.
 enum class Detail {
   kFull,

@@ -241,7 +241,8 @@ function takeNewest(now) {
   const state = shown.newest, isNew = state?.stateNumber !== before;
   if (isNew) stateChangedAt = now;
   if (shown.isNewest) updateScene();
-  if (model === null || state?.people.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
+  const bodies = state ? [...state.people, ...state.ghosts] : [];
+  if (model === null || bodies.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
   return isNew;
 }
 
@@ -342,7 +343,7 @@ async function loadDiagnostics() {
   if (document.hidden) return;
   try {
     const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
-    if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
+    if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? [], scene?.problems));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
   }
@@ -403,6 +404,7 @@ function showReadings() {
   markPad.update(now);
   loadAlarms(now);
   alarmPanel.update(now);
+  scene?.updateSurroundings(shown.details.surroundings, now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

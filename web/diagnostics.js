@@ -8,13 +8,15 @@ const MOST_LINES = 12;
 /** One line per problem, the most urgent first, without duplicates.
  *  @param {import('./messages.js').Diagnostics} diagnostics
  *  @param {string[]} failedMeshes  that this page could not load
+ *  @param {string[]} notShown  what its 3-D view does not show as it should
  *  @returns {string[]} */
-export function problemLines(diagnostics, failedMeshes) {
+export function problemLines(diagnostics, failedMeshes, notShown = []) {
   const { pictures, source } = diagnostics;
   const lines = [];
   if (pictures?.last_error) lines.push(`Server rendering: ${pictures.last_error}`);
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
+  for (const problem of notShown) lines.push(`Missing or replaced in the 3-D view: ${problem}`);
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;

@@ -8,6 +8,7 @@ import { ARROW_SHAPES, ForceArrows, makeArrowMaterials } from './force_arrows.js
 import { request } from './server_api.js';
 import { SkinnedBody } from './skin.js';
 import { readSkin } from './skin_buffer.js';
+import { theme } from './theme.js';
 
 const OCCLUDED_OPACITY = 0.45;  // of markers that are visible through the body
 const SPHERE_DEPTH = 0.11;      // m, by which a sphere counts as nearer than its joint's centre
@@ -100,13 +101,14 @@ export class Human {
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
    *  @param {ReturnType<typeof makeMarkerMaterials>} markers
-   *  @param {import('./messages.js').Look} look
+   *  @param {Pick<import('./messages.js').Look, 'loads'|'style'>} look
    *  @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(model, palette, markers, look, onChange) {
     this.#look = look;
     this.palette = palette;
     this.markers = markers;
     this.revision = model.revision;
+    this.ghostOpacity = model.ghost_opacity;  // null: a person of the stream
     this.staleColor = toColor(palette.stale_body);
     this.clayColor = toColor(palette.clay);
     for (const link of model.links) {
@@ -132,7 +134,9 @@ export class Human {
    *  @param {number} floor  height of the floor, m */
   update(person, isLive, floor) {
     const color = this.#bodyColor(isLive);
-    for (const { material, live } of this.#materials.values()) material.color.copy(color ?? live);
+    for (const { material, live } of this.#materials.values()) {
+      material.color.copy(color ?? live).lerp(live, 1 - this.#colorShare);
+    }
     this.#last = { person, isLive };
     this.#updateSkin(person, isLive);
     person.links.forEach(({ position, quaternion }, i) => {
@@ -146,7 +150,7 @@ export class Human {
     this.#updateHeld(person);
   }
 
-  /** @param {import('./messages.js').Look} look  from the next update on */
+  /** @param {Pick<import('./messages.js').Look, 'loads'|'style'>} look  from the next update on */
   setLook(look) {
     this.#look = look;
   }
@@ -178,12 +182,12 @@ export class Human {
       const answer = await request(url.slice(1));
       const skin = readSkin(await answer.arrayBuffer(), url);
       if (this.#isDisposed) return;
-      this.#skin = new SkinnedBody(skin, this.palette);
+      this.#skin = new SkinnedBody(skin, this.palette, this.ghostOpacity);
       if (this.#last) {
         this.#updateSkin(this.#last.person, this.#last.isLive);
         this.#updateSpheres(this.#last.person, this.#last.isLive);
       }
-      this.group.add(this.#skin.mesh);
+      this.group.add(this.#skin.group);
     } catch {
       this.failedMeshes.push(url);
     }
@@ -193,14 +197,21 @@ export class Human {
   /** That replaces those of body and clothes; null: none.
    *  @param {boolean} isLive */
   #bodyColor(isLive) {
+    const { on_light: onLight, on_dark: onDark } = this.palette.ghost;
+    if (this.ghostOpacity !== null) return toColor(theme?.name === 'dark' ? onDark : onLight);
     if (!isLive) return this.staleColor;
     return this.#look.style === 'clay' ? this.clayColor : null;
+  }
+
+  /** Of that color. */
+  get #colorShare() {
+    return this.ghostOpacity === null ? 1 : this.palette.ghost.share;
   }
 
   /** @param {import('./state_codec.js').Person} person
    *  @param {boolean} isLive */
   #updateSkin(person, isLive) {
-    this.#skin?.update(person.links, this.#bodyColor(isLive));
+    this.#skin?.update(person.links, this.#bodyColor(isLive), this.#colorShare);
     const isOnSkin = this.#look.loads !== 'spheres';
     this.#skin?.showLoads(isOnSkin ? person.loads.map(({ joint, loadClass }) =>
       ({ joint, loadClass: isLive ? loadClass : 'unknown' })) : null);
@@ -323,7 +334,8 @@ export class Human {
     if (known) return known.material;
     const live = toColor(rgba);
     const material = new THREE.MeshStandardMaterial({ color: live.clone(), roughness: 0.82 });
-    if (rgba[3] < 1) Object.assign(material, { transparent: true, opacity: rgba[3] });
+    const opacity = (rgba[3] ?? 1) * (this.ghostOpacity ?? 1);
+    if (opacity < 1) Object.assign(material, { transparent: true, opacity });
     this.#materials.set(key, { material, live });
     return material;
   }

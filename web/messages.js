@@ -107,7 +107,7 @@ const readRecording = object({
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
   objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
-  marks_revision: numberOrNull, class_limits: numbers(2),
+  marks_revision: numberOrNull, surroundings: numberOrNull, class_limits: numbers(2),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
@@ -192,7 +192,8 @@ const readVisual = object({
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
 });
 const readPersonModel = object({
-  character: number, revision: number, skin: orNull(string), links: listOf(object({ visuals: listOf(readVisual) })),
+  character: number, revision: number, ghost_opacity: numberOrNull, skin: orNull(string),
+  links: listOf(object({ visuals: listOf(readVisual) })),
 });
 const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb, size: number, rim: number }));
 const readPalette = object({
@@ -203,10 +204,14 @@ const readPalette = object({
     return missing ? reject(value, path, `a colour of the class ${missing}`) : colors;
   },
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: listOf(rgb, 3),
+  ghost: object({ on_light: rgb, on_dark: rgb, share: number }),
 });
 /** Where the classes of joint loads are shown, and how bodies are drawn: the values of --loads and --style. */
 export const LOADS_SHOWN = /** @type {const} */ (['spheres', 'skin', 'both']);
-const readLook = object({ loads: oneOf(LOADS_SHOWN), style: oneOf(['matte', 'clay', 'line']) });
+const readTrail = object({ segment: number, name: string, color: rgb });
+const readLook = object({
+  loads: oneOf(LOADS_SHOWN), style: oneOf(['matte', 'clay', 'line']), trails: listOf(readTrail), trail_secs: number,
+});
 export const readModel = object({
   people: listOf(readPersonModel), joints: listOf(object({ name: string, label: string })), class_limits: numbers(2),
   compression_limits_n: numbers(2), look: readLook,
@@ -215,8 +220,14 @@ export const readModel = object({
 /** @typedef {ReturnType<typeof readVisual>} Visual
  *  @typedef {ReturnType<typeof readPersonModel>} PersonModel
  *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
+ *  @typedef {ReturnType<typeof readTrail>} TrailLook  segment: number of its link; -1: the centre of mass
  *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
+
+// /api/v1/surroundings.glb: the extras of its scene, and those of its texts
+export const readSurroundings = object({ problems: listOf(string) });
+export const readLabelText = object({ text: string, height: number, color: rgb, opacity: number });
+/** @typedef {ReturnType<typeof readLabelText>} LabelText  height of a capital, m; 0: a note of fixed size */
 
 // /api/v1/series
 const readColumns = listOf(numberOrNull);

@@ -8,7 +8,9 @@ import { makeMarkerMaterials } from './human.js';
 import { ObjectMarkers } from './objects.js';
 import { placeText, shifted, turned, zoomed } from './orbit.js';
 import { People } from './people.js';
+import { Surroundings } from './surroundings.js';
 import { theme } from './theme.js';
+import { Trails } from './trails.js';
 
 const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a walking person
 // Until the server has sent its cameras.
@@ -29,6 +31,9 @@ export class Scene {
   #shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
   #grid = new THREE.LineSegments(gridGeometry(12, 0.5), new THREE.LineBasicMaterial());
   #people = new People(() => { this.#dirty = true; });
+  #ghosts = new People(() => { this.#dirty = true; });  // reference poses
+  #trails = new Trails();
+  #surroundings = new Surroundings(() => { this.#dirty = true; });
   #markers = /** @type {ReturnType<typeof makeMarkerMaterials>|null} */ (null);
   #objects = /** @type {ObjectMarkers|null} */ (null);
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
@@ -77,13 +82,16 @@ export class Scene {
       this.#objects.setNames(this.#objectNames);
       this.#scene.add(this.#objects.group);
     }
-    this.#people.setModels(model.people, model.palette, this.#markers);
+    const isGhost = (/** @type {import('./messages.js').PersonModel} */ person) => person.ghost_opacity !== null;
+    this.#people.setModels(model.people.filter((person) => !isGhost(person)), model.palette, this.#markers);
+    this.#ghosts.setModels(model.people.filter(isGhost), model.palette, this.#markers);
     this.#dirty = true;
   }
 
   /** @param {import('./messages.js').Look} look  from the next update on */
   setLook(look) {
     this.#people.setLook(look);
+    this.#trails.setLook(look.trails, look.trail_secs);
   }
 
   /** Whether any person is drawn as a skin. */
@@ -105,7 +113,7 @@ export class Scene {
 
   /** @param {import('./state_codec.js').Person} person */
   hasModelOf(person) {
-    return this.#people.has(person.character, person.revision);
+    return [this.#people, this.#ghosts].some((people) => people.has(person.character, person.revision));
   }
 
   get failedMeshes() {
@@ -120,10 +128,24 @@ export class Scene {
     this.#dirty = true;
   }
 
+  /** External markers and robots.
+   *  @param {number|null} revision  null: none, or not known
+   *  @param {number} now */
+  updateSurroundings(revision, now) {
+    this.#surroundings.update(revision, now);
+  }
+
+  /** What is not shown as it should be, one line each. */
+  get problems() {
+    return this.#surroundings.problems;
+  }
+
   /** @param {import('./state_codec.js').State} state
    *  @param {boolean} isLive */
   update(state, isLive) {
     this.#people.update(state, isLive);
+    this.#ghosts.update({ ...state, people: state.ghosts }, isLive);
+    this.#trails.update(state);
     this.#objects?.update(state.objects, isLive);
     if (state.people.length > 0) {
       const pelvises = state.people.map(({ links }) => links[0].position);
@@ -232,6 +254,7 @@ export class Scene {
     this.#takePlace();
     this.#adaptQuality(elapsed);
     this.#people.pose(this.renderer);
+    this.#ghosts.pose(this.renderer);
     this.renderer.render(this.#scene, this.#camera);
     return true;
   }
@@ -293,7 +316,8 @@ export class Scene {
     shadow.normalBias = 0.02;
     const fill = new THREE.DirectionalLight(0xdfe8ff, 0.55);
     fill.position.set(-3, 3, 2);
-    this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor, this.#people.group);
+    this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor, this.#people.group, this.#ghosts.group,
+      this.#trails.group, this.#surroundings.group);
     this.#shade.receiveShadow = true;
     this.#shade.material.depthWrite = false;  // the shadow lies on the grid and must not hide it
     this.#grid.position.z = -0.002;

@@ -22,7 +22,7 @@ export class Shown {
   /** @type {State|null} */ #newest = null;
   /** @type {Details} */ #newestDetails = {
     source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
-    marks_revision: null, class_limits: [0.3, 0.6],
+    marks_revision: null, surroundings: null, class_limits: [0.3, 0.6],
   };
   /** @type {{state: State, details: Details}|null} */ #past = null;
   #askedMicros = NaN;  // of the moment last asked for

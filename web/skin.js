@@ -70,7 +70,10 @@ function usePosedVertices(shader, declarations = '') {
 }
 
 export class SkinnedBody {
+  /** Of a reference pose: what is in front is drawn into the depth first, so that one layer shines through. */
+  group = new THREE.Group();
   mesh;
+  #front = /** @type {THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>|null} */ (null);
   #rig;
   #surface;
   #fromBind;
@@ -81,8 +84,9 @@ export class SkinnedBody {
   #regionRim;
 
   /** @param {import('./skin_buffer.js').Skin} skin
-   *  @param {import('./messages.js').Palette} palette */
-  constructor(skin, palette) {
+   *  @param {import('./messages.js').Palette} palette
+   *  @param {number|null} [opacity]  of a reference pose */
+  constructor(skin, palette, opacity = null) {
     this.#rig = skin.rig;
     this.#skin = skin;
     this.#palette = palette;
@@ -98,13 +102,28 @@ export class SkinnedBody {
     this.mesh = new THREE.Mesh(geometry, this.#material(skin));
     this.mesh.customDepthMaterial = this.#depthMaterial();
     this.mesh.frustumCulled = false;  // its bounds move with the frames
-    this.mesh.castShadow = true;  // only onto the floor: on the body itself shadows would disturb the shading
+    this.mesh.castShadow = opacity === null;  // only onto the floor: on the body itself shadows would disturb the shading
+    this.group.add(this.mesh);
+    if (opacity !== null) this.#becomeVeil(skin, opacity);
+  }
+
+  /** @param {import('./skin_buffer.js').Skin} skin
+   *  @param {number} opacity */
+  #becomeVeil(skin, opacity) {
+    const front = this.#front = new THREE.Mesh(this.mesh.geometry, this.#material(skin));
+    front.material.colorWrite = false;
+    front.frustumCulled = false;
+    front.renderOrder = 1;
+    this.mesh.renderOrder = 2;
+    Object.assign(this.mesh.material, { transparent: true, opacity, depthWrite: false });
+    this.group.add(front);
   }
 
   /** @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed
-   *  @param {THREE.Color|null} color  instead of those of the suit */
-  update(links, color) {
-    this.#override.share.value = color ? 1 : 0;
+   *  @param {THREE.Color|null} color  instead of those of the suit
+   *  @param {number} [share]  of that color */
+  update(links, color, share = 1) {
+    this.#override.share.value = color ? share : 0;
     if (color) this.#override.color.value = color;
     this.#surface.setPosture(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
       new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])), links);
@@ -143,6 +162,7 @@ export class SkinnedBody {
   dispose() {
     this.mesh.geometry.dispose();
     this.mesh.material.dispose();
+    this.#front?.material.dispose();
     this.mesh.customDepthMaterial?.dispose();
     this.#surface.dispose();
   }

@@ -30,7 +30,9 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, viewBelow: number,
- *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[]}} State
+ *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[],
+ *    ghosts: Person[]}} State
+ *    ghosts: reference poses;
  *    arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by which named views are turned about
  *    z, rad; viewBelow: by which people seem to be below the floor, m;
  *    madeMicros: its moment in the server's history, oldestMicros, oldestNumber: of the first state in it, 0: none
@@ -95,11 +97,12 @@ class Bytes {
  *  @returns {State} */
 export function decodeState(buffer) {
   const bytes = new Bytes(buffer);
-  const { peopleCount, objectCount, ...header } = readStateHeader(bytes);
+  const { peopleCount, objectCount, ghostCount, ...header } = readStateHeader(bytes);
   const people = bytes.list(peopleCount, readPerson);
   const objects = bytes.list(objectCount, readObject);
+  const ghosts = bytes.list(ghostCount, readPerson);
   bytes.end();
-  return { ...header, people, objects };
+  return { ...header, people, objects, ghosts };
 }
 
 /** @param {ArrayBuffer} buffer
@@ -138,14 +141,14 @@ function readStateHeader(bytes) {
   const viewers = bytes.u32();
   const floor = bytes.f32();
   const objectCount = bytes.u8();
-  bytes.skip(1);
+  const ghostCount = bytes.u8();
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
   const viewBelow = bytes.f32();
   const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, waitedMillis, viewHeading, viewBelow, madeMicros, oldestMicros, oldestNumber,
+    viewers, floor, objectCount, ghostCount, waitedMillis, viewHeading, viewBelow, madeMicros, oldestMicros, oldestNumber,
   };
 }
 

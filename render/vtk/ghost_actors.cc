@@ -1,17 +1,20 @@
 #include "render/vtk/ghost_actors.h"
 
+#include "core/palette.h"
+
 namespace kinescope::render {
 namespace {
 
-// Cool, apart from the floor, and no colour of a person or a class.
-const Eigen::Vector4f kTintOnLight = {0.35f, 0.45f, 0.62f, 0.75f};
-const Eigen::Vector4f kTintOnDark = {0.60f, 0.72f, 0.92f, 0.75f};
+Eigen::Vector4f TintOf(Theme theme) {
+  const Rgb& color = theme == Theme::kDark ? kGhostOnDark : kGhostOnLight;
+  return Eigen::Vector4d(color[0], color[1], color[2], kGhostShare).cast<float>();
+}
 
 }  // namespace
 
 bool GhostActors::Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels) {
   const std::vector<Ghost>& ghosts = look.ghosts;
-  const Eigen::Vector4f& tint = look.theme == Theme::kDark ? kTintOnDark : kTintOnLight;
+  const Eigen::Vector4f tint = TintOf(look.theme);
   bool is_changed = bodies_.size() != ghosts.size();
   bodies_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {

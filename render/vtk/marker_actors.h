@@ -2,7 +2,6 @@
 /// rebuilt when one of them has changed since the picture before.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,8 +9,8 @@
 #include "core/scene_state.h"
 #include "render/camera/picture_region.h"
 #include "render/module.h"
+#include "render/shape/marker_shapes.h"
 #include "render/shape/once_log.h"
-#include "render/shape/visual_mesh.h"
 #include "render/vtk/part_actor.h"
 
 namespace kinescope::render {
@@ -33,18 +32,14 @@ class MarkerActors {
 
  private:
   void Build();
-  void AddMesh(const SceneMarker& marker, urdf::Mesh& to);
-  const VisualMesh& MeshOf(const std::string& uri);
 
   PartActor solid_, blended_;
+  MarkerReader reader_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused
   std::vector<Eigen::AlignedBox3f> boxes_;                   // around each of them, world
   std::vector<Label> labels_;
   std::vector<std::string> problems_;
-  std::map<std::string, VisualMesh> meshes_;  // by URI
-  std::size_t triangles_ = 0;
-  bool is_closed_ = true;
 };
 
 }  // namespace kinescope::render

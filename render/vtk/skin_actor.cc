@@ -85,9 +85,11 @@ void SkinActor::AddActors(const SkinShading& shading, Level& level) const {
     if (own_) shaded->SetCulling(!own_->is_two_sided);
     actors.push_back(std::move(shaded));
   };
+  // One that shines through is drawn at once: its nearest layer is known only when all of it is.
+  const bool is_whole = pass_ == Pass::kVeil && !surface.suit().empty();
   std::vector<skin::Triangle> plain, bordered;
   for (const skin::Triangle& triangle : surface.triangles()) {
-    (HasBorder(surface.suit(), triangle) ? bordered : plain).push_back(triangle);
+    (is_whole || HasBorder(surface.suit(), triangle) ? bordered : plain).push_back(triangle);
   }
   add(shading, plain);
   SkinShading with_borders = shading;

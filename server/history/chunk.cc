@@ -155,6 +155,8 @@ SceneState WithoutUnkept(const SceneState& state) {
   SceneState form = state;
   form.robots.clear();
   form.markers.clear();
+  form.ghosts.clear();
+  form.surroundings = 0;
   for (PersonState& person : form.people) {
     const int character = person.character;
     person.sample = BodySample();

@@ -207,6 +207,32 @@ json ClassesToJson() {
   return classes;
 }
 
+json TrailsToJson(const std::vector<PageTrail>& trails) {
+  json list = json::array();
+  for (const PageTrail& trail : trails) {
+    list.push_back(
+        {{"segment", trail.segment}, {"name", trail.name}, {"color", ToJson(trail.color)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+namespace {
+
+struct ShownPerson {
+  const PersonState& person;
+  std::optional<double> ghost_opacity;  // of a reference pose
+};
+
+std::vector<ShownPerson> PeopleAndGhosts(const SceneState* state) {
+  std::vector<ShownPerson> all;
+  if (state == nullptr) return all;
+  for (const PersonState& person : state->people) all.push_back({person, std::nullopt});
+  for (const Ghost& ghost : state->ghosts) all.push_back({ghost.person, ghost.opacity});
+  return all;
+}
+
 }  // namespace
 
 std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
@@ -238,13 +264,13 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
 
 std::string ModelJson(const SceneState* state, const PageLook& look) {
   json people = json::array();
-  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
-    const PersonState& person = state->people[i];
+  for (const auto& [person, ghost_opacity] : PeopleAndGhosts(state)) {
     const urdf::BodyDescription& body = person.model->description;
     const bool is_skin = look.draws_skins && person.model->has_built_in_surface;
     people.push_back({{"character", person.character},
                       {"name", person.name},
                       {"revision", person.model->revision},
+                      {"ghost_opacity", ghost_opacity ? json(*ghost_opacity) : json()},
                       {"height_m", person.model->human.skeleton.height},
                       {"mass_kg", body.mass_kg},
                       {"mass_is_assumed", body.mass_is_assumed},
@@ -259,10 +285,18 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
                {"joints", std::move(joints)},
                {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
                {"compression_limits_n", kCompressionLimits},
-               {"look", {{"loads", look.loads}, {"style", look.style}}},
+               {"look",
+                {{"loads", look.loads},
+                 {"style", look.style},
+                 {"trails", TrailsToJson(look.trails)},
+                 {"trail_secs", look.trail_secs}}},
                {"palette",
                 {{"classes", ClassesToJson()},
                  {"object", ToJson(kObjectColor)},
+                 {"ghost",
+                  {{"on_light", ToJson(kGhostOnLight)},
+                   {"on_dark", ToJson(kGhostOnDark)},
+                   {"share", kGhostShare}}},
                  {"axes", {ToJson(kAxisColors[0]), ToJson(kAxisColors[1]), ToJson(kAxisColors[2])}},
                  {"cop", ToJson(kCopColor)},
                  {"com", ToJson(kComColor)},
@@ -349,23 +383,24 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     left_out.push_back(
         {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
   }
-  return Text(
-      {{"details",
-        {{"source", state != nullptr ? state->source : std::string()},
-         {"camera", live_camera},
-         {"has_pictures", has_pictures},
-         {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
-         {"people", std::move(people)},
-         {"objects", std::move(objects)},
-         {"left_out", std::move(left_out)},
-         {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
-         {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()}}}});
+  // Those of a former moment are not known.
+  const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;
+  return Text({{"details",
+                {{"source", state != nullptr ? state->source : std::string()},
+                 {"camera", live_camera},
+                 {"has_pictures", has_pictures},
+                 {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
+                 {"people", std::move(people)},
+                 {"objects", std::move(objects)},
+                 {"left_out", std::move(left_out)},
+                 {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
+                 {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
+                 {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
                                                      std::uint64_t revision) {
-  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
-    const PersonState& person = state->people[i];
+  for (const auto& [person, ghost_opacity] : PeopleAndGhosts(state)) {
     if (person.character != character || person.model->revision != revision) continue;
     return person.model->has_built_in_surface ? person.model : nullptr;
   }
@@ -374,8 +409,7 @@ std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, in
 
 std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
                                             std::uint64_t revision, std::size_t n) {
-  if (state == nullptr) return nullptr;
-  for (const PersonState& person : state->people) {
+  for (const auto& [person, ghost_opacity] : PeopleAndGhosts(state)) {
     if (person.character != character || person.model->revision != revision) continue;
     if (!person.model->mesh_files) return nullptr;
     std::size_t number = 0;

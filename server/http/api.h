@@ -31,6 +31,7 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
 struct DetailsExtras {
   std::shared_ptr<const Playback> playback;     // null: the stream is live
   std::optional<std::uint64_t> marks_revision;  // nullopt: nothing can be marked
+  std::optional<std::uint64_t> surroundings;    // their revision; nullopt: none
 };
 
 /// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal

@@ -221,6 +221,8 @@ std::string Hub::DetailsOf(const SceneState* state) const {
   DetailsExtras extras;
   extras.playback = playback_ ? playback_() : nullptr;
   if (marks_ != nullptr && history_ != nullptr) extras.marks_revision = marks_->revision();
+  const auto surroundings = surroundings_ ? surroundings_() : nullptr;
+  if (surroundings != nullptr) extras.surroundings = surroundings->revision;
   return DetailsJson(state, camera_, feed_ != nullptr, extras);
 }
 

@@ -82,6 +82,10 @@ class Hub {
       std::function<void(const std::string& before, const std::string& after, Role role)>;
   void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
+  using GetSurroundings = std::function<std::shared_ptr<const Surroundings>()>;
+  /// Those that clients are told of. May be null.
+  void SetSurroundings(GetSurroundings surroundings) { surroundings_ = std::move(surroundings); }
+
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
   void OnMessage(HubClient& client, std::string_view text);
@@ -114,7 +118,8 @@ class Hub {
   Counters& counters_;
   const GetPlayback playback_;
   const marks::MarkBook* const marks_;
-  OnCamera on_camera_;  // may be null
+  OnCamera on_camera_;            // may be null
+  GetSurroundings surroundings_;  // may be null
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_

@@ -166,8 +166,9 @@ Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
   out.PutFloat(state.rate_hz);
   out.Put(static_cast<std::uint32_t>(moment.viewers));
   out.PutFloat(state.floor_z);
+  const std::uint8_t ghosts = CountByte(state.ghosts.size());
   out.Put(objects);
-  out.Put(std::uint8_t{0});
+  out.Put(ghosts);
   out.Put(WaitedUnits(state.waited_nanos));
   out.PutFloat(state.view_heading);
   std::vector<ViewRoom> rooms;
@@ -184,6 +185,7 @@ Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], rooms[i].height);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
+  for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person, 0);
   return out.Take();
 }
 

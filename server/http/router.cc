@@ -241,7 +241,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, one in docs/http.md, and its description in docs/openapi.json.
-const std::array<Router::ApiRoute, 24> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 25> Router::kApiRoutes = {{
     {"/api/v1/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/v1/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/v1/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -263,6 +263,7 @@ const std::array<Router::ApiRoute, 24> Router::kApiRoutes = {{
     {kFilePath, Method::kGet, Role::kOperator, &Router::Download},
     {kMeshPath, Method::kGet, Role::kViewer, &Router::Mesh},
     {kSkinPath, Method::kGet, Role::kViewer, &Router::Skin},
+    {"/api/v1/surroundings.glb", Method::kGet, Role::kViewer, &Router::Surroundings},
     {kSnapshotPath, Method::kGet, Role::kViewer, &Router::Snapshot},
     {kWebSocketPath, Method::kGet, Role::kViewer, &Router::AskForUpgrade},
     {"/api/v1/openapi.json", Method::kGet, Role::kViewer, &Router::OpenApi},
@@ -453,6 +454,14 @@ Answer Router::Skin(const Request& request, Role /*role*/) const {
   }
   return AnswerOfModel(*skins_.Of(model, site_.own_skin.get()), "application/octet-stream",
                        request);
+}
+
+Answer Router::Surroundings(const Request& request, Role /*role*/) const {
+  const auto surroundings = site_.surroundings ? site_.surroundings() : nullptr;
+  if (surroundings == nullptr) {
+    return ErrorAnswer(404, "nothing is beside the people: no external markers, and no robots");
+  }
+  return AnswerOfModel(surroundings->glb, "model/gltf-binary", request);
 }
 
 Answer Router::Snapshot(const Request& request, Role /*role*/) const {

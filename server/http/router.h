@@ -39,9 +39,10 @@ class Router {
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
-    marks::MarkBook* marks = nullptr;           // may be null: nothing can be marked
-    Controls* controls = nullptr;               // may be null
-    alarms::Alarms* alarms = nullptr;           // may be null: nothing is watched
+    std::function<std::shared_ptr<const http::Surroundings>()> surroundings;  // may be null
+    marks::MarkBook* marks = nullptr;  // may be null: nothing can be marked
+    Controls* controls = nullptr;      // may be null
+    alarms::Alarms* alarms = nullptr;  // may be null: nothing is watched
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
@@ -95,7 +96,7 @@ class Router {
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 24> kApiRoutes;
+  static const std::array<ApiRoute, 25> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -131,6 +132,7 @@ class Router {
   // router.cc
   Answer Mesh(const Request& request, Role role) const;
   Answer Skin(const Request& request, Role role) const;
+  Answer Surroundings(const Request& request, Role role) const;
   Answer Snapshot(const Request& request, Role role) const;
   Answer OpenApi(const Request& request, Role role) const;
   Answer AskForUpgrade(const Request& request, Role role) const;

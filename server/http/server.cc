@@ -202,6 +202,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
         [controls = config.controls](const std::string& before, const std::string& after,
                                      Role role) { controls->OnCamera(before, after, role); });
   }
+  hub_.SetSurroundings(config.surroundings);
   shared_.router = &*router_;
   shared_.hub = &hub_;
   shared_.counters = &counters_;
@@ -238,6 +239,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.cameras = config_.cameras;
   site.framing = config_.framing;
   site.history = config_.history;
+  site.surroundings = config_.surroundings;
   site.marks = config_.marks;
   site.controls = config_.controls;
   site.alarms = config_.alarms;

@@ -36,6 +36,12 @@ struct Picture {
   std::int64_t arrival_nanos = 0;  // receive time of that state's sample, monotonic clock
 };
 
+/// What is beside the people, external markers and robots, made once for all viewers.
+struct Surroundings {
+  std::uint64_t revision = 0;  // SceneState::surroundings of what it shows
+  std::string glb;             // render/surroundings.h
+};
+
 /// A named camera for a person who stands at the world's origin. World frame, metres. The page uses
 /// these numbers for its 3-D view, so that a name means the same view everywhere.
 struct CameraView {
@@ -46,11 +52,20 @@ struct CameraView {
   double vertical_fov_rad = 0.52;
 };
 
+/// A point whose recent path the page draws.
+struct PageTrail {
+  int segment = -1;  // urdf::Segment; -1: the centre of mass
+  Rgb color = {0, 0, 0};
+  std::string name;
+};
+
 /// How the page draws people, until its viewer chooses.
 struct PageLook {
   bool draws_skins = true;        // of people with the built-in surface; else parts
   std::string loads = "spheres";  // where load classes are shown: or "skin", "both"
   std::string style = "matte";    // or "clay", "line"
+  std::vector<PageTrail> trails = {};
+  double trail_secs = 2;
 };
 
 /// Numbers by which every camera frames several people and narrow pictures.
@@ -118,6 +133,8 @@ struct HttpConfig {
   /// Of the recording that is played; null: the stream is live. Called on the server's thread. May
   /// be null.
   std::function<std::shared_ptr<const Playback>()> playback;
+  /// The newest that is made; null: none yet. Called on the server's thread. May be null.
+  std::function<std::shared_ptr<const Surroundings>()> surroundings;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
   /// What operators do; borrowed. Null: the page has no controls.

@@ -52,9 +52,11 @@ const std::vector<Library>& Libraries() {
       {"/lib/three/three.core.js", "three/build/three.core.js"},
       {"/lib/three/addons/controls/OrbitControls.js",
        "three/examples/jsm/controls/OrbitControls.js"},
+      {"/lib/three/addons/loaders/GLTFLoader.js", "three/examples/jsm/loaders/GLTFLoader.js"},
       {"/lib/three/addons/loaders/STLLoader.js", "three/examples/jsm/loaders/STLLoader.js"},
       {"/lib/three/addons/utils/BufferGeometryUtils.js",
        "three/examples/jsm/utils/BufferGeometryUtils.js"},
+      {"/lib/three/addons/utils/SkeletonUtils.js", "three/examples/jsm/utils/SkeletonUtils.js"},
       {"/lib/uplot/uPlot.esm.js", "uplot/dist/uPlot.esm.js"},
       {"/lib/uplot/uPlot.min.css", "uplot/dist/uPlot.min.css"},
   };

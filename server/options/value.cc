@@ -29,6 +29,11 @@ std::string Describe(const Range& range, const char* kind) {
 
 }  // namespace
 
+void RefuseWord(const std::string& word, const std::vector<std::string>& known) {
+  throw BadValue(fmt::format("unknown '{}'; expected {}", word, Alternatives(known)),
+                 SuggestionFor(word, known));
+}
+
 const FormerWord* FindFormer(const std::vector<FormerWord>& words, const std::string& word) {
   const auto found = std::find_if(words.begin(), words.end(),
                                   [&](const FormerWord& each) { return each.former == word; });

@@ -29,6 +29,9 @@ class BadValue : public std::runtime_error {
   std::string suggestion_;
 };
 
+/// @throws BadValue: `word` is none of those that are `known`, and may mean one of them.
+[[noreturn]] void RefuseWord(const std::string& word, const std::vector<std::string>& known);
+
 /// A word of an earlier version in a text, and the word that has replaced it.
 struct FormerWord {
   std::string former, current;

@@ -37,8 +37,10 @@ DrawingLoop::DrawingLoop(DrawingSettings settings, CameraController camera,
       deliver_(std::move(deliver)),
       state_(std::move(first)),
       camera_(std::move(camera)),
+      trails_(settings_.trails),
       next_live_(Clock::time_point::min()) {
   camera_.StartTime(*state_);
+  trails_.Remember(*state_);
   thread_ = std::thread(&DrawingLoop::Run, this);
 }
 
@@ -59,6 +61,7 @@ void DrawingLoop::OnState(std::shared_ptr<const SceneState> state) {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = std::move(state);
     camera_.StartTime(*state_);
+    trails_.Remember(*state_);
     wake = !std::exchange(live_is_due_, true) && status_.viewers > 0;
   }
   if (wake) wake_.notify_one();
@@ -166,6 +169,8 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   const std::shared_ptr<const SceneState> state = state_;
   render::PictureSpec view = LiveView(settings_.width, settings_.height);
   settings_.people.ApplyTo(view.look);
+  view.look.trails = trails_.Make();
+  view.look.ghosts = state->ghosts;
   if (is_dark_) view.look.theme = render::Theme::kDark;
   const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
   lock.unlock();
@@ -199,6 +204,8 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   in_hand_ = std::move(order.picture);
   settings_.people.ApplyTo(order.view.look);
   const std::shared_ptr<const SceneState> state = state_;
+  order.view.look.trails = trails_.Make();
+  order.view.look.ghosts = state->ghosts;
   const double aspect = AspectOf(order.view);
   std::optional<render::Camera> camera;
   if (order.camera) {

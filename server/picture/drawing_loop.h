@@ -22,6 +22,7 @@
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/people_look.h"
+#include "server/picture/trails.h"
 
 namespace kinescope::app {
 
@@ -31,6 +32,7 @@ struct DrawingSettings {
   int height = 720;
   double rate_hz = 30;     // maximum frame rate of the live picture
   PeopleLook people = {};  // of all pictures
+  TrailSettings trails = {};
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
@@ -124,7 +126,8 @@ class DrawingLoop {
   std::condition_variable wake_;
   // Guarded by mutex_:
   std::shared_ptr<const SceneState> state_;
-  CameraController camera_;   // of the live picture
+  CameraController camera_;  // of the live picture
+  Trails trails_;
   bool live_is_due_ = false;  // the newest state, camera, theme or viewer has no picture yet
   bool is_dark_ = false;      // the live picture
   bool stop_ = false;

@@ -83,8 +83,8 @@ GhostPose::GhostPose(const GhostValue& ghost, double opacity, const SceneOptions
   if (kind_ == GhostSource::Kind::kMoment) recorded_ = ReadMoment(ghost, options);
 }
 
-std::vector<render::Ghost> GhostPose::Make(const SceneState& state) const {
-  std::vector<render::Ghost> ghosts;
+std::vector<Ghost> GhostPose::Make(const SceneState& state) const {
+  std::vector<Ghost> ghosts;
   if (kind_ == GhostSource::Kind::kNone) return ghosts;
   if (kind_ == GhostSource::Kind::kMoment) {
     for (const PersonState& person : recorded_) ghosts.push_back({person, opacity_, name_});

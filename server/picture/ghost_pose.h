@@ -23,7 +23,7 @@ class GhostPose {
   /// n_pose and t_pose: of every person in `state`, with their own lengths, where their pelvis is,
   /// facing as it does, soles on the floor. FILE@SECS: the people at that time, at their recorded
   /// positions.
-  std::vector<render::Ghost> Make(const SceneState& state) const;
+  std::vector<Ghost> Make(const SceneState& state) const;
 
  private:
   GhostSource::Kind kind_;

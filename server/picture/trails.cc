@@ -23,9 +23,9 @@ std::string NameOfTrack(int segment) {
 
 }  // namespace
 
-Trails::Trails(const std::vector<int>& tracks, double secs) : secs_(secs) {
-  KINESCOPE_CHECK(secs > 0 && secs <= kMaxSecs);
-  for (const int segment : tracks) {
+Trails::Trails(const TrailSettings& settings) : secs_(settings.secs) {
+  KINESCOPE_CHECK(secs_ > 0 && secs_ <= kMaxSecs);
+  for (const int segment : settings.tracks) {
     tracks_.push_back({segment, segment < 0 ? kComColor : kColors[tracks_.size() % kColors.size()],
                        NameOfTrack(segment)});
   }

@@ -13,12 +13,17 @@
 
 namespace kinescope::app {
 
+struct TrailSettings {
+  std::vector<int> tracks = {};  // urdf::Segment, or -1 for the centre of mass
+  double secs = 2;
+};
+
 class Trails {
  public:
   static constexpr double kMaxSecs = 60;
 
-  /// `tracks`: urdf::Segment, or -1 for the centre of mass. @pre 0 < secs <= kMaxSecs
-  Trails(const std::vector<int>& tracks, double secs);
+  /// @pre 0 < settings.secs <= kMaxSecs
+  explicit Trails(const TrailSettings& settings);
 
   bool empty() const { return tracks_.empty(); }
   double secs() const { return secs_; }

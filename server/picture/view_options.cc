@@ -12,7 +12,6 @@
 #include "core/picture_limits.h"
 #include "core/system/errors.h"
 #include "server/options/text.h"
-#include "server/picture/trails.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_reader.h"
 #include "urdf/segments.h"
@@ -21,8 +20,9 @@ namespace kinescope::app {
 namespace {
 
 using options::BadValue;
+using options::RefuseWord;
 
-constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxTrails = 24, kMaxRobots = 64;
+constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
 
 constexpr std::array<std::pair<const char*, const char*>, 4> kGrids = {{
@@ -48,11 +48,6 @@ const std::vector<options::FormerWord> kFormerParts = {
 
 bool IsChange(const std::string& name) {
   return !name.empty() && (name[0] == '+' || name[0] == '-');
-}
-
-[[noreturn]] void RefuseWord(const std::string& word, const std::vector<std::string>& known) {
-  throw BadValue(fmt::format("unknown '{}'; expected {}", word, Alternatives(known)),
-                 SuggestionFor(word, known));
 }
 
 std::vector<std::string> ScoredJointNames() {
@@ -86,21 +81,6 @@ render::ScenePart PartNamed(const std::string& name) {
     known.emplace_back(info.name);
   }
   RefuseWord(name, known);
-}
-
-std::vector<std::string> TrackNames() {
-  std::vector<std::string> names = {"com"};
-  for (const urdf::SegmentInfo& segment : urdf::kSegments) names.emplace_back(segment.link_name);
-  return names;
-}
-
-int TrackNamed(const std::string& name) {
-  if (name == "com") return -1;
-  for (std::size_t i = 0; i < urdf::kSegments.size(); ++i) {
-    const urdf::SegmentInfo& segment = urdf::kSegments[i];
-    if (name == segment.mvn_name || name == segment.link_name) return static_cast<int>(i);
-  }
-  RefuseWord(name, TrackNames());
 }
 
 std::string Joined(const std::vector<std::string>& names) {
@@ -365,9 +345,16 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       floor(true),
       show(Joined(PartNames(false)), render::kSceneParts.size(), PartNamed, kFormerParts),
       hide(Joined(PartNames(true)), render::kSceneParts.size(), PartNamed, kFormerParts),
-      trail(Joined(TrackNames()), kMaxTrails, TrackNamed),
-      trail_secs(2, {0, Trails::kMaxSecs, "s", true}),
-      ghost_opacity(0.35, {0, 1}) {}
+      ghost_opacity(GhostOpacity()) {}
+
+options::Number GhostOpacity() { return {0.35, {0, 1}}; }
+
+void ListGhost(options::OptionList& option, GhostValue& ghost, options::Number& opacity) {
+  option("ghost", ghost, "a translucent second body to compare with");
+  option("ghost_opacity", opacity, "opacity of the ghost");
+  option.HasNoEffect("ghost_opacity", "without --ghost",
+                     [&ghost] { return ghost->kind == GhostSource::Kind::kNone; });
+}
 
 void ViewOptions::List(options::OptionList& option) {
   option.Group("The picture");
@@ -392,11 +379,9 @@ void ViewOptions::List(options::OptionList& option) {
   option("floor", floor, "whether the floor is drawn");
   option("show", show, "parts to show beside the default ones");
   option("hide", hide, "parts to hide");
-  option("trail", trail, "points whose recent path is drawn");
-  option("trail_secs", trail_secs, "length of the trails");
-  option("ghost", ghost, "a translucent second body to compare with");
-  option("ghost_opacity", ghost_opacity, "opacity of the ghost");
-  option("robot", robot, "robot that stands on the floor beside the people; may be repeated");
+  trails.List(option);
+  ListGhost(option, ghost, ghost_opacity);
+  option("robot", robot, kRobotHelp);
   for (const char* name : {"dpi", "text_pt"}) {
     option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
   }
@@ -408,9 +393,6 @@ void ViewOptions::List(options::OptionList& option) {
                      [this] { return !overlay->title; });
   option.HasNoEffect("legend", "unless --overlay includes legend",
                      [this] { return !overlay->legend; });
-  option.HasNoEffect("trail_secs", "without --trail", [this] { return trail->empty(); });
-  option.HasNoEffect("ghost_opacity", "without --ghost",
-                     [this] { return ghost->kind == GhostSource::Kind::kNone; });
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
+#include "server/picture/trail_options.h"
 
 namespace kinescope::app {
 
@@ -100,6 +101,12 @@ class GhostValue : public options::ValueOf<GhostSource> {
   std::string text_;
 };
 
+/// 0.35 unless told, from 0 to 1.
+options::Number GhostOpacity();
+
+/// Lists --ghost and --ghost_opacity. They are borrowed.
+void ListGhost(options::OptionList& option, GhostValue& ghost, options::Number& opacity);
+
 /// A robot's URDF and where its root stands on the floor.
 struct RobotPlace {
   std::string file;
@@ -108,6 +115,9 @@ struct RobotPlace {
   };
   std::optional<Place> place;  // none: beside the people
 };
+
+inline constexpr char kRobotHelp[] =
+    "robot that stands on the floor beside the people; may be repeated";
 
 /// FILE.urdf or FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m, degrees), once per robot.
 class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
@@ -151,8 +161,7 @@ struct ViewOptions {
   BackgroundValue background;
   options::Switch floor;
   options::List<render::ScenePart> show, hide;
-  options::List<int> trail;  // urdf::Segment; -1: the centre of mass
-  options::Number trail_secs;
+  TrailOptions trails;
   GhostValue ghost;
   options::Number ghost_opacity;
   RobotsValue robot;

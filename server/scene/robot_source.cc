@@ -88,6 +88,13 @@ std::vector<fs::path> FilesOfRobot(const fs::path& urdf) {
   return {files.begin(), files.end()};
 }
 
+RobotState Lifted(RobotState robot, double by) {
+  const Eigen::Vector3d up(0, 0, by);
+  for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(up);
+  robot.bounds.translate(up);
+  return robot;
+}
+
 void StandOnFloor(RobotState& robot, double x, double y) {
   KINESCOPE_CHECK(!robot.bounds.isEmpty());
   const Eigen::Vector3d middle = robot.bounds.center();

@@ -25,6 +25,9 @@ RobotState ReadRobot(const std::filesystem::path& path,
 /// out. Never throws.
 std::vector<std::filesystem::path> FilesOfRobot(const std::filesystem::path& urdf);
 
+/// `robot`, higher by `by`, m.
+RobotState Lifted(RobotState robot, double by);
+
 /// Moves the robot so that the middle of its bounds is above `x`, `y` (world, m) and its lowest
 /// point is on z = 0. @pre its bounds are known
 void StandOnFloor(RobotState& robot, double x = 0, double y = 0);

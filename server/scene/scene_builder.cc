@@ -10,6 +10,7 @@
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
+#include "server/scene/robot_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -202,6 +203,7 @@ void SceneBuilder::Publish(Liveness liveness) {
   current_.liveness = liveness;
   current_.number += 1;
   current_.source = source_;
+  if (current_.floor_z != robots_floor_z_) PlaceRobots();
   const auto scene = std::make_shared<SceneState>(current_);
   scene->people.reserve(people_.size());
   for (const auto& [id, person] : people_) {
@@ -236,8 +238,24 @@ void SceneBuilder::Publish(Liveness liveness) {
   on_state_(scene);
 }
 
+void SceneBuilder::SetRobots(std::vector<RobotState> robots) {
+  robots_ = std::move(robots);
+  PlaceRobots();
+}
+
+void SceneBuilder::PlaceRobots() {
+  if (robots_.empty()) return;
+  current_.robots.clear();
+  for (const RobotState& robot : robots_) {
+    current_.robots.push_back(Lifted(robot, current_.floor_z));
+  }
+  robots_floor_z_ = current_.floor_z;
+  current_.surroundings += 1;
+}
+
 void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers) {
   current_.markers = std::move(markers);
+  current_.surroundings += 1;
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 

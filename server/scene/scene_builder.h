@@ -76,6 +76,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// measurements are ignored. May be called before the character appears.
   void SetMeasurements(int character, const loads::Measurements& measured);
 
+  /// Robots whose lowest points are on z = 0: they stand on the floor from the next state on.
+  void SetRobots(std::vector<RobotState> robots);
+
   /// Sets the external markers from the next sample on; at once while no samples arrive.
   void SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers);
 
@@ -110,6 +113,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
+  void PlaceRobots();
 
   struct LeftOut {
     PlausiblePlaces::Doubt doubt;
@@ -135,7 +139,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::int64_t waited_nanos_ = 0;                      // see SetWaited()
   HeldHeading view_heading_;
   RateMeter rate_;
-  SceneState current_;  // without its people, which Publish adds
+  SceneState current_;              // without its people, which Publish adds
+  std::vector<RobotState> robots_;  // on z = 0
+  double robots_floor_z_ = 0;       // where those of current_ stand
 };
 
 }  // namespace kinescope::app

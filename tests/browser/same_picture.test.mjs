@@ -1,8 +1,14 @@
 // The page shows what the pictures of the server show: all objects, pixel by pixel.
 import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { writeFile } from 'node:fs/promises';
+import { connect, createServer } from 'node:net';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
-import { saveScreenshot } from './open_page.mjs';
-import { cameraOf, mask, MARKS, overlap, PLAIN, record, serve, serverPixels, whatCovers } from './same_pixels.mjs';
+import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { cameraOf, folder, LONG, mask, MARKS, overlap, PLAIN, record, serve, serverPixels, whatCovers } from './same_pixels.mjs';
 
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
 const EVERYTHING = { route: '**/api/v1/model', address: 'api/v1/skin' };
@@ -28,3 +34,145 @@ for (const { motion, seconds, camera, person } of [
     await site.stop();
   });
 }
+
+const BESIDE = { route: '**/api/v1/surroundings.glb*', address: 'api/v1/surroundings.glb' };
+const GHOST = { route: '**/api/v1/skin/1000000/**', address: 'api/v1/skin/1000000' };
+const NOTHING_LEFT_OUT = (covered) => new Uint8Array(covered.length);
+
+const ROBOT = `<robot name="arm"><link name="base"><visual><geometry><cylinder radius="0.12" length="0.5"/></geometry>
+  <material name="m"><color rgba="0.2 0.5 0.7 1"/></material></visual></link>
+  <link name="upper"><visual><origin xyz="0 0 0.3"/><geometry><box size="0.12 0.16 0.6"/></geometry></visual></link>
+  <link name="hand"><visual><geometry><sphere radius="0.11"/></geometry></visual></link>
+  <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.25" rpy="0.5 0 0"/></joint>
+  <joint name="wrist" type="fixed"><parent link="upper"/><child link="hand"/><origin xyz="0 0 0.7"/></joint></robot>`;
+
+test('a robot beside the person covers the same pixels on the page and in the picture', async () => {
+  const file = await record('lift', 1, []), robot = join(folder, 'arm.urdf');
+  await writeFile(robot, ROBOT);
+  const options = ['--robot', `${robot}@0.2,-0.6,40`];
+  const site = await serve(file, ['--loop', ...options, '--pictures', 'off']);
+  const { page, covered, size, close } = await whatCovers(site, 'front', BESIDE, { 'status-word': 'Recording' });
+  await saveScreenshot(page, 'same_robot');
+  const sameCamera = await cameraOf(page, 'front', size);
+  const [all, without] = [
+    await serverPixels(page, file, sameCamera, size, [...PLAIN, 'shadows', ...options]),
+    await serverPixels(page, file, sameCamera, size, [...PLAIN, 'shadows,robots', ...options]),
+  ];
+  const { share, either } = overlap(covered, mask(all, without), NOTHING_LEFT_OUT(covered));
+  assert.ok(either > 0.01 * covered.length, `${either} pixels`);
+  assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
+  await close();
+  await site.stop();
+});
+
+for (const ghost of ['n_pose', 'demo:overhead@1.5']) {
+  test(`the reference pose ${ghost} covers the same pixels on the page and in the picture`, async () => {
+    const file = await record('lift', 1, []);
+    const options = ['--ghost', ghost, '--ghost_opacity', '0.5'];
+    const site = await serve(file, ['--loop', ...options, '--pictures', 'off']);
+    const { page, covered, size, close } = await whatCovers(site, 'front', GHOST, { 'status-word': 'Recording' });
+    await saveScreenshot(page, `same_ghost_${ghost.slice(0, 4)}`);
+    const sameCamera = await cameraOf(page, 'front', size);
+    const draw = (hidden, more) => serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...more]);
+    const rest = `shadows,${MARKS}`;
+    const [withGhost, alone, nothing] = [await draw(rest, options), await draw(rest, []), await draw(`body,${rest}`, [])];
+    // In front of a person, a ghost of nearly the same grey cannot be told from it.
+    const { share, either } = overlap(covered, mask(withGhost, alone), mask(alone, nothing));
+    assert.ok(either > 0.01 * covered.length, `${either} pixels`);
+    assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
+    await close();
+    await site.stop();
+  });
+}
+
+/** A ROS master on a free port: the environment of nodes that use it. */
+async function startMaster() {
+  const probe = createServer().listen(0, '127.0.0.1');
+  await once(probe, 'listening');
+  const { port } = probe.address();
+  probe.close();
+  const env = { ROS_MASTER_URI: `http://127.0.0.1:${port}`, ROS_IP: '127.0.0.1', ROS_HOME: folder, ROS_LOG_DIR: folder };
+  const master = spawn('rosmaster', ['--core', '-p', `${port}`], { stdio: 'ignore', env: { ...process.env, ...env } });
+  endWithTests(master);
+  for (;;) {
+    const socket = connect(port, '127.0.0.1');
+    const isThere = await once(socket, 'connect').then(() => true, () => false);
+    socket.destroy();
+    if (isThere) return { env, stop: () => master.kill('SIGINT') };
+    assert.equal(master.exitCode, null, 'the master does not start');
+  }
+}
+
+test('markers of another ROS node cover the same pixels on the page and in a snapshot', async () => {
+  const { env, stop } = await startMaster();
+  const publisher = spawn(process.env.KINESCOPE_MARKER_PUBLISHER, [], { stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, ...env } });
+  endWithTests(publisher);
+  const file = await record('n_pose', 1, []);
+  const live = ['--loop', '--picture_size', '64x64'];
+  const site = await serve(file, [...live, '--ros', 'required', '--marker_topics', '/samples'], env);
+  const bare = await serve(file, live);
+  await once(createInterface({ input: publisher.stdout }), 'line');  // it has a subscriber
+  const { page, problems, close } = await openPage(site.url);
+  await page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
+    name.includes('surroundings.glb') && responseEnd > 0), null, LONG);
+  assert.deepEqual(problems, []);
+  await close();
+  const shown = await whatCovers(site, 'front', BESIDE, { 'status-word': 'Recording' });
+  await saveScreenshot(shown.page, 'same_markers');
+  const snapshot = async ({ url }) => {
+    const { width, height } = shown.size;
+    const png = await fetch(`${url}api/v1/snapshot.png?camera=front&width=${width}&height=${height}`);
+    return pixelsOfPng(shown.page, Buffer.from(await png.arrayBuffer()));
+  };
+  const inPicture = mask(await snapshot(site), await snapshot(bare));
+  const legend = onlyMiddle(shown.size);
+  const pairs = [['page', shown.covered, 'picture', inPicture], ['picture', inPicture, 'page', shown.covered]];
+  for (const [name, one, otherName, other] of pairs) {
+    const { share, count } = found(one, other, legend, shown.size);
+    assert.ok(count > 0.01 * legend.length, `${count} pixels`);
+    assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels on the ${name} are within a pixel of those of the ${otherName}`);
+  }
+  await shown.close();
+  await site.stop();
+  await bare.stop();
+  publisher.kill();
+  stop();
+});
+
+/** The share of the pixels of `one` that `other` covers, or a pixel beside them: lines are not much wider than that. */
+function found(one, other, leftOut, { width }) {
+  const beside = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => dy * width + dx));
+  const pixels = [...one.keys()].filter((i) => one[i] && !leftOut[i]);
+  return { share: pixels.filter((i) => beside.some((step) => other[i + step])).length / pixels.length, count: pixels.length };
+}
+
+/** What is left out: a snapshot has a legend and texts on its sides. */
+const onlyMiddle = ({ width, height }) => new Uint8Array(width * height).map((_, i) =>
+  (Math.abs(i % width - width / 2) > 0.25 * width || Math.floor(i / width) < 0.1 * height ? 1 : 0));
+
+/** Pixels of the fourth colour of trails, a pale blue that nothing else has. */
+const paleBlue = ({ data }) => data.reduce((count, red, i) => {
+  const green = data[i + 1], blue = data[i + 2];
+  return count + (i % 4 === 0 && blue - red > 60 && blue - green < 90 && green - red > 35 ? 1 : 0);
+}, 0);
+
+test('the path of a hand is drawn behind it, on the page and in a snapshot', async () => {
+  const trails = ['--trail', 'pelvis,l5,l3,right_hand', '--trail_secs', '6'];
+  const counts = [];
+  for (const options of [[], trails]) {
+    const site = await serve('demo:lift', [...options, '--picture_size', '64x64']);
+    const { page, problems, close } = await openPage(site.url, { colorScheme: 'dark' });
+    await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+    // The third time of a picture: the hand has moved.
+    for (let seen = 0; options.length > 0 && seen < 3;) if (paleBlue(await pixelsOf(page, '#view')) > 60) seen += 1;
+    const snapshot = await fetch(`${site.url}api/v1/snapshot.png?theme=dark`);
+    const drawn = await pixelsOfPng(page, Buffer.from(await snapshot.arrayBuffer()));
+    counts.push([paleBlue(await pixelsOf(page, '#view')), paleBlue(drawn)]);
+    await saveScreenshot(page, `same_trail_${options.length > 0}`);
+    assert.deepEqual(problems, []);
+    await close();
+    await site.stop();
+  }
+  const [without, withTrails] = counts;
+  withTrails.forEach((count, i) => assert.ok(count > without[i] + 60, `${counts}`));
+});

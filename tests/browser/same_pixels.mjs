@@ -13,7 +13,7 @@ import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng } from './o
 
 export const LONG = { timeout: 60000 };  // only a failure takes so long
 const kinescope = process.env.KINESCOPE;
-let folder;
+export let folder;
 before(async () => { folder = await mkdtemp(join(tmpdir(), 'kinescope-pixels-')); });
 after(async () => {
   await closeBrowser();
@@ -33,9 +33,9 @@ export async function record(motion, seconds, person, change = (frame) => frame)
 }
 
 /** Serves it; the page then shows its last sample. */
-export async function serve(file, options) {
-  const args = ['serve', '--source', file, '--ros', 'off', '--http_port', '0', ...options];
-  const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
+export async function serve(file, options, env = {}) {
+  const args = ['serve', '--source', file, '--http_port', '0', ...('ROS_MASTER_URI' in env ? [] : ['--ros', 'off']), ...options];
+  const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'], env: { ...process.env, ...env } });
   endWithTests(child);
   const lines = createInterface({ input: child.stderr });
   let url = null;

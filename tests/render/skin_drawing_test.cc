@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/color_difference.h"
 #include "core/palette.h"
@@ -60,6 +61,27 @@ TEST_F(SkinDrawing, GivesTheSameBytesWhateverWasDrawnBefore) {
   Draw(Person(Posture::kDeepBend));
   EXPECT_TRUE(Compare(first, Draw(Person())).equal());
   EXPECT_TRUE(Compare(first, MakeRenderer()->Render(Person(), FrontCamera(), spec_)).equal());
+}
+
+// Where two layers of it were blended, it would be darker.
+TEST_F(SkinDrawing, ShowsOneLayerOfAGhost) {
+  SceneState without_people;
+  without_people.liveness = Liveness::kLive;
+  const Image empty = Draw(without_people);
+  const auto ghost = [&](double opacity) {
+    spec_.look.ghosts = {{Person().people[0], opacity}};
+    return Draw(without_people);
+  };
+  const Image solid = ghost(1), half = ghost(0.5);
+  int covered = 0, wrong = 0;
+  for (std::size_t i = 0; i < empty.rgba.size(); ++i) {
+    if (solid.rgba[i] == empty.rgba[i]) continue;
+    ++covered;
+    const double expected = 0.5 * (solid.rgba[i] + empty.rgba[i]);
+    wrong += std::abs(half.rgba[i] - expected) > 2 ? 1 : 0;
+  }
+  EXPECT_GT(covered, 10'000);
+  EXPECT_LT(wrong, 20) << "but for single pixels of rims";
 }
 
 TEST_F(SkinDrawing, MovesTheFingersOfGloves) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "urdf/rig/frame_names.h"
+#include "urdf/rig/glb_writer.h"
 #include "urdf/segments.h"
 #include "urdf/skin/frames.h"
 
@@ -18,15 +19,6 @@ namespace {
 using Eigen::Affine3d;
 using nlohmann::json;
 using urdf::At;
-
-constexpr int kUnsignedByteComponent = 5121, kUnsignedShortComponent = 5123, kFloatComponent = 5126;
-constexpr int kOfVertices = 34962, kOfIndices = 34963;  // targets of buffer views
-
-// x forward, y left, z up to x left, y up, z forward.
-const Eigen::Matrix3d& FileAxes() {
-  static const Eigen::Matrix3d kAxes = (Eigen::Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished();
-  return kAxes;
-}
 
 // The segment that a frame's bone hangs on; -1: none.
 int ParentOf(int frame) {
@@ -58,8 +50,6 @@ class SkinWriter {
   }
 
   std::string Write() {
-    document_["asset"] = {{"version", "2.0"}, {"generator", "Kinescope"}};
-    document_["scene"] = 0;
     if (options_.has_skeleton) {
       AddBones();
     } else {
@@ -67,15 +57,14 @@ class SkinWriter {
       document_["scenes"] = {{{"nodes", {0}}}};
     }
     AddSurface();
-    document_["buffers"] = {{{"byteLength", binary_.size()}}};
-    return Packed();
+    return glb_.Write();
   }
 
  private:
   static Affine3d InFile(const urdf::Pose& pose, const Eigen::Vector3d& place) {
     Affine3d world = Affine3d::Identity();
-    world.linear() = FileAxes() * pose.orientation.toRotationMatrix();
-    world.translation() = FileAxes() * (pose.position + place);
+    world.linear() = GlbAxes() * pose.orientation.toRotationMatrix();
+    world.translation() = GlbAxes() * (pose.position + place);
     return world;
   }
   Affine3d BindOf(int frame) const { return InFile(person_.bind_frames()[At(frame)], bind_place_); }
@@ -112,9 +101,10 @@ class SkinWriter {
     nodes.push_back({{"name", "Person"}, {"mesh", 0}, {"skin", 0}});
     document_["nodes"] = std::move(nodes);
     document_["scenes"] = {{{"nodes", {0, frames}}}};
-    document_["skins"] = {{{"joints", std::move(bones)},
-                           {"skeleton", 0},
-                           {"inverseBindMatrices", Add(binds, {kFloatComponent, "MAT4", 16})}}};
+    document_["skins"] = {
+        {{"joints", std::move(bones)},
+         {"skeleton", 0},
+         {"inverseBindMatrices", glb_.Add(binds, {GlbWriter::kFloat, "MAT4", 16})}}};
   }
 
   void AddSurface() {
@@ -128,24 +118,19 @@ class SkinWriter {
       surface.positions = person_.rest();
     }
     std::vector<float> positions, normals;
-    Eigen::Vector3f least = Eigen::Vector3f::Constant(1e9f), most = -least;
     const Eigen::Vector3d place = is_posed ? Eigen::Vector3d(0, 0, 0) : bind_place_;
     for (const Eigen::Vector3f& p : surface.positions) {
-      const Eigen::Vector3f at = (FileAxes() * (p.cast<double>() + place)).cast<float>();
+      const Eigen::Vector3f at = (GlbAxes() * (p.cast<double>() + place)).cast<float>();
       positions.insert(positions.end(), at.begin(), at.end());
-      least = least.cwiseMin(at);
-      most = most.cwiseMax(at);
     }
     for (const Eigen::Vector3f& n : surface.normals) {
-      const Eigen::Vector3f turned = FileAxes().cast<float>() * n;
+      const Eigen::Vector3f turned = GlbAxes().cast<float>() * n;
       normals.insert(normals.end(), turned.begin(), turned.end());
     }
-    json attributes = {{"POSITION", Add(positions, {kFloatComponent, "VEC3", 3, kOfVertices})},
-                       {"NORMAL", Add(normals, {kFloatComponent, "VEC3", 3, kOfVertices})}};
+    json attributes = {
+        {"POSITION", glb_.AddPositions(positions)},
+        {"NORMAL", glb_.Add(normals, {GlbWriter::kFloat, "VEC3", 3, GlbWriter::kOfVertices})}};
     if (options_.has_skeleton) AddWeights(attributes);
-    json& of_positions = document_["accessors"][attributes["POSITION"].get<std::size_t>()];
-    of_positions["min"] = std::vector<float>(least.begin(), least.end());
-    of_positions["max"] = std::vector<float>(most.begin(), most.end());
     // A part for each colour.
     std::map<skin::SkinTemplate::Color, std::vector<std::uint16_t>> parts;
     for (std::size_t i = 0; i < of_.triangles.size(); ++i) {
@@ -159,10 +144,10 @@ class SkinWriter {
             {{"baseColorFactor", {ToLinear(color[0]), ToLinear(color[1]), ToLinear(color[2]), 1}},
              {"metallicFactor", 0},
              {"roughnessFactor", 0.8}}}});
-      primitives.push_back(
-          {{"attributes", attributes},
-           {"indices", Add(corners, {kUnsignedShortComponent, "SCALAR", 1, kOfIndices})},
-           {"material", document_["materials"].size() - 1}});
+      primitives.push_back({{"attributes", attributes},
+                            {"indices", glb_.Add(corners, {GlbWriter::kUnsignedShort, "SCALAR", 1,
+                                                           GlbWriter::kOfIndices})},
+                            {"material", document_["materials"].size() - 1}});
     }
     document_["meshes"] = {{{"name", "Person"}, {"primitives", std::move(primitives)}}};
   }
@@ -176,51 +161,11 @@ class SkinWriter {
         weights.push_back(vertex.weights[k]);
       }
     }
-    attributes["JOINTS_0"] = Add(joints, {kUnsignedByteComponent, "VEC4", 4, kOfVertices});
-    attributes["WEIGHTS_0"] = Add(weights, {kUnsignedByteComponent, "VEC4", 4, kOfVertices});
+    attributes["JOINTS_0"] =
+        glb_.Add(joints, {GlbWriter::kUnsignedByte, "VEC4", 4, GlbWriter::kOfVertices});
+    attributes["WEIGHTS_0"] =
+        glb_.Add(weights, {GlbWriter::kUnsignedByte, "VEC4", 4, GlbWriter::kOfVertices});
     document_["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()]["normalized"] = true;
-  }
-
-  struct Kind {
-    int component = 0;
-    const char* type = "";
-    std::size_t per_element = 1;
-    int target = 0;  // 0: none
-  };
-  // @return the accessor
-  template <class T>
-  std::size_t Add(const std::vector<T>& values, const Kind& kind) {
-    const std::size_t bytes = sizeof(T) * values.size();
-    json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}};
-    if (kind.target != 0) view["target"] = kind.target;
-    document_["bufferViews"].push_back(std::move(view));
-    binary_.append(reinterpret_cast<const char*>(values.data()), bytes);
-    binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
-    document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
-                                      {"componentType", kind.component},
-                                      {"count", values.size() / kind.per_element},
-                                      {"type", kind.type}});
-    return document_["accessors"].size() - 1;
-  }
-
-  std::string Packed() const {
-    std::string text = document_.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string glb = "glTF";
-    const auto word = [&](std::size_t value) {
-      const auto bits = static_cast<std::uint32_t>(value);
-      glb.append(reinterpret_cast<const char*>(&bits), sizeof bits);
-    };
-    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-    constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
-    word(kVersion);
-    word(kHeader + kChunkHeader + text.size() + kChunkHeader + binary_.size());
-    word(text.size());
-    word(kJson);
-    glb += text;
-    word(binary_.size());
-    word(kBinary);
-    return glb + binary_;
   }
 
   const skin::PersonSkin& person_;
@@ -229,8 +174,8 @@ class SkinWriter {
   const SkinGlbOptions& options_;
   /// Of the bind pose's pelvis, world, m: without a posture, so that the soles are on the floor.
   Eigen::Vector3d bind_place_ = Eigen::Vector3d::Zero();
-  json document_;
-  std::string binary_;
+  GlbWriter glb_;
+  json& document_ = glb_.document();
 };
 
 }  // namespace

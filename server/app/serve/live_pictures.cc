@@ -25,12 +25,14 @@ LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory 
     : moves_(settings.moves),
       pictures_(pictures),
       camera_(settings.camera.name()),
-      live_({"picture", settings.width, settings.height, settings.rate_hz, settings.people},
+      live_({"picture", settings.width, settings.height, settings.rate_hz, settings.people,
+             settings.trails},
             settings.camera, make_renderer, first,
             [this](const render::Image& image, const SceneState& state, const render::Camera&) {
               Publish(image, state);
             }),
-      snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz, settings.people},
+      snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz, settings.people,
+                  settings.trails},
                  settings.camera, std::move(make_renderer), first, nullptr) {
   // The first viewer receives a picture at once.
   Publish(live_.Request(LiveView(settings.width, settings.height)).get(), *first);

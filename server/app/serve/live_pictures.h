@@ -30,6 +30,7 @@ struct LivePictureSettings {
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
   PeopleLook people = {};
+  TrailSettings trails = {};
 };
 
 class LivePictures : public http::PictureFeed {

@@ -25,6 +25,7 @@ struct RosCameraSettings {
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
   PeopleLook people = {};
+  TrailSettings trails = {};
 };
 
 class RosCameraLoop {

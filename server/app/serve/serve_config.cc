@@ -49,6 +49,15 @@ IpNetworks TrustedProxies(const std::string& text) {
   }
 }
 
+std::vector<http::PageTrail> TrailsOf(const TrailOptions& options) {
+  const TrailSettings settings = options.Settings();
+  std::vector<http::PageTrail> trails;
+  for (render::Trail& trail : Trails(settings).WithoutPoints()) {
+    trails.push_back({settings.tracks[trails.size()], trail.color, std::move(trail.name)});
+  }
+  return trails;
+}
+
 http::HttpConfig PageOf(const ServeOptions& options) {
   http::HttpConfig config;
   config.bind_ip = *options.bind_ip;
@@ -62,7 +71,7 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.camera = options.camera->front().text;
   const render::Figure figure = options.figure.Load();
   config.look = {figure.kind == render::Figure::kSkin, options.loads_shown.ToText(),
-                 options.style.ToText()};
+                 options.style.ToText(), TrailsOf(options.trails), *options.trails.secs};
   config.own_skin = figure.own_skin;
   return config;
 }
@@ -83,6 +92,10 @@ ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
   clips.view.figure = options.figure;
   clips.view.style = options.style;
   clips.view.loads = options.loads_shown;
+  clips.view.trails = options.trails;
+  clips.view.robot = options.robot;
+  clips.view.ghost = options.ghost;
+  clips.view.ghost_opacity = options.ghost_opacity;
   clips.backend = options.backend;
   clips.scene = scene;
   return clips;
@@ -111,6 +124,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
   pictures.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
+  pictures.trails = options.trails.Settings();
   return pictures;
 }
 
@@ -125,6 +139,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
   settings.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
+  settings.trails = options.trails.Settings();
   return settings;
 }
 
@@ -198,6 +213,9 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   }
   http::CheckConfig(*config.page);
   config.backend = options.backend;
+  config.robots = *options.robot;
+  config.ghost = options.ghost;
+  config.ghost_opacity = *options.ghost_opacity;
   if (*options.pictures) config.pictures = pictures;
   AddRecordings(options, config);
   if (config.pictures && config.history) config.clips = ClipsOf(options, config.scene);

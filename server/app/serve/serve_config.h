@@ -16,6 +16,7 @@
 #include "server/http/server.h"
 #include "server/marks/mark_book.h"
 #include "server/picture/backend.h"
+#include "server/picture/view_options.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 #include "server/source/open_source.h"
@@ -38,10 +39,13 @@ struct ServeConfig {
   std::optional<history::HistoryLimits> history;  // only with `page`
   std::optional<marks::BookSettings> marks;       // only with `history`
   std::optional<http::HttpConfig> page;           // without its callbacks
-  std::optional<ClipSettings> clips;              // only with `history` and `pictures`
-  std::filesystem::path recordings;               // folder
-  bool may_make_recordings = true;                // the folder
-  OptionTexts loads_options;                      // of the reports
+  std::vector<RobotPlace> robots;
+  GhostValue ghost;
+  double ghost_opacity = 0;
+  std::optional<ClipSettings> clips;  // only with `history` and `pictures`
+  std::filesystem::path recordings;   // folder
+  bool may_make_recordings = true;    // the folder
+  OptionTexts loads_options;          // of the reports
   // Commands that print the tokens of the page, or "".
   std::string how_to_see_token, how_to_see_viewer_token;
   bool shows_token = false;        // in the log, which is a terminal and no file

@@ -93,6 +93,7 @@ ServeOptions::ServeOptions()
           "grasp,lift,place,release,step,slip,talk,pain,discard",
           "up to nine names with commas between, each of 1 to 40 characters with a letter or digit",
           AreMarkNames),
+      ghost_opacity(GhostOpacity()),
       pictures(true),
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
@@ -178,6 +179,9 @@ void ServeOptions::List(options::OptionList& option) {
          "recordings, in ~/.local/state/kinescope or the state folder of the service");
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
+  trails.List(option);
+  ListGhost(option, ghost, ghost_opacity);
+  option("robot", robot, kRobotHelp);
   option("pictures", pictures, "whether the server draws pictures");
   option("camera", camera, "where the camera stands");
   camera_moves.List(option);

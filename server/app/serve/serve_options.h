@@ -8,6 +8,8 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
+#include "server/picture/trail_options.h"
+#include "server/picture/view_options.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_options.h"
 #include "server/source/open_source.h"
@@ -53,6 +55,10 @@ struct ServeOptions {
   FigureValue figure;
   StyleValue style;
   LoadsShownValue loads_shown;  // --loads
+  TrailOptions trails;
+  GhostValue ghost;
+  options::Number ghost_opacity;
+  RobotsValue robot;
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;

@@ -16,6 +16,7 @@
 #include "server/app/serve/input_merger.h"
 #include "server/http/answer.h"
 #include "server/marks/mark_json.h"
+#include "server/picture/standing_robots.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -117,7 +118,8 @@ Server::Server(const ServeConfig& config)
       is_recording_(IsRecording(config)),
       length_(LengthOf(config)),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
-               [this](const std::shared_ptr<SceneState>& state) { OnState(state); }) {
+               [this](const std::shared_ptr<SceneState>& state) { OnState(state); }),
+      ghost_(config.ghost, config.ghost_opacity, config.scene) {
   for (const std::string& note : config.notes) spdlog::info("{}", note);
   LogListening(*source_, config.source_reach);
   if (marks_ && marks_->unread_lines() > 0) {
@@ -125,6 +127,7 @@ Server::Server(const ServeConfig& config)
                  marks_->unread_lines());
   }
   if (config.ros) StartRos(*config.ros, config.ros_mode);
+  builder_.SetRobots(ReadStandingRobots(config.robots, config.backend));
   builder_.Start();  // the first state; pictures and page need one
   if (config.pictures) StartPictures(config);
   if (config.page) {
@@ -184,23 +187,41 @@ void Server::StartPage(const ServeConfig& config) {
     const auto stream = stream_.Get();
     return stream ? StreamHealthJson(*stream) : std::string();
   };
+  page.surroundings = [this] { return surroundings_made_.Get(); };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });
+  surroundings_ = std::make_unique<SurroundingsLoop>([this] { return page_->clients() > 0; },
+                                                     surroundings_made_);
   LogPage("page", *page_, http::Role::kOperator, config.shows_token, config.how_to_see_token);
   if (page.viewer_token.empty()) return;
   LogPage("page for viewers", *page_, http::Role::kViewer, config.shows_token,
           config.how_to_see_viewer_token);
 }
 
+// What the page needs of them is where they are.
+void Server::AddGhosts(SceneState& state) const {
+  state.ghosts = ghost_.Make(state);
+  int character = kFirstGhost;
+  for (Ghost& ghost : state.ghosts) {
+    ghost.person.character = character++;
+    ghost.person.com.reset();
+    ghost.person.cop.reset();
+    ghost.person.loads.clear();
+    ghost.person.forces = BodyForces();
+  }
+}
+
 void Server::OnState(const std::shared_ptr<SceneState>& state) {
   state->made_nanos = MonotonicNanos();
+  AddGhosts(*state);
   alarms_.OnState(*state);
   if (ros_) ros_->Publish(*state);
   states_.Publish(state);
   if (history_) history_->Add(state);
   if (live_pictures_) live_pictures_->OnState(state);
   if (ros_camera_) ros_camera_->OnState(state);
+  if (surroundings_) surroundings_->OnState(state);
   liveness_log_.OnState(*state);
 }
 

@@ -26,9 +26,11 @@
 #include "server/app/serve/ros_news.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/stream_health.h"
+#include "server/app/serve/surroundings_loop.h"
 #include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/marks/mark_book.h"
+#include "server/picture/ghost_pose.h"
 #include "server/recording/folder.h"
 #include "server/recording/raw_recorder.h"
 #include "server/ros/bridge.h"
@@ -56,6 +58,7 @@ class Server {
   void StartControls(const ServeConfig& config);
   void StartPage(const ServeConfig& config);
   void OnState(const std::shared_ptr<SceneState>& state);
+  void AddGhosts(SceneState& state) const;
   void OnTime(std::int64_t now_nanos);  // between polls
   void UpdatePlayback(bool has_ended);
   void OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const;
@@ -73,6 +76,7 @@ class Server {
   Latest<Playback> playback_;                        // reading thread -> page; null: live
   Latest<StreamHealth> stream_;                      // reading thread -> page
   Latest<http::Picture> pictures_;                   // drawing thread -> page
+  Latest<http::Surroundings> surroundings_made_;     // its own thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   ChangeMailbox changes_;                            // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
@@ -89,6 +93,7 @@ class Server {
   StreamHealthMeter stream_meter_;
   std::int64_t counters_due_nanos_ = 0;
   SceneBuilder builder_;
+  const GhostPose ghost_;
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<ros_bridge::RosBridge> ros_;
@@ -97,6 +102,7 @@ class Server {
   std::unique_ptr<ClipMaker> clips_;
   std::unique_ptr<ControlDesk> desk_;  // the page's thread
   std::optional<http::HttpServer> page_;
+  std::unique_ptr<SurroundingsLoop> surroundings_;  // with page_
 };
 
 }  // namespace kinescope::app

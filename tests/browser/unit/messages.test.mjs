@@ -13,15 +13,16 @@ const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, pe
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }],
   recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null },
-  marks_revision: 7, class_limits: [0.3, 0.6] };
+  marks_revision: 7, surroundings: 3, class_limits: [0.3, 0.6] };
 const palette = {
   classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: [rgb, rgb, rgb],
+  ghost: { on_light: rgb, on_dark: rgb, share: 0.75 },
 };
 const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
   mesh: '/api/v1/mesh/0/1/0' };
-const model = { people: [{ character: 0, revision: 1, skin: '/api/v1/skin/0/1', links: [{ visuals: [visual] }] }],
-  joints: [{ name: 'l5_s1', label: 'L5/S1' }], class_limits: [0.3, 0.6], compression_limits_n: [3400, 6400], look: { loads: 'both', style: 'clay' },
+const model = { people: [{ character: 0, revision: 1, ghost_opacity: null, skin: '/api/v1/skin/0/1', links: [{ visuals: [visual] }] }],
+  joints: [{ name: 'l5_s1', label: 'L5/S1' }], class_limits: [0.3, 0.6], compression_limits_n: [3400, 6400], look: { loads: 'both', style: 'clay', trails: [{ segment: -1, name: 'centre of mass', color: rgb }], trail_secs: 2 },
   palette };
 
 /** A copy of `value` whose member at `path` ("people.0.name") is `other`. */

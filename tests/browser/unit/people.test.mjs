@@ -9,9 +9,10 @@ const rgb = [0.5, 0.5, 0.5];
 const palette = {
   classes: ['low', 'medium', 'high', 'unknown'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: [0.4, 0.3, 0.2], object: rgb, axes: [rgb, rgb, rgb],
+  ghost: { on_light: rgb, on_dark: rgb, share: 0.75 },
 };
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
-const modelOf = (character, revision = 1) => ({ character, revision, skin: null, links: [{ visuals: [box] }] });
+const modelOf = (character, revision = 1) => ({ character, revision, ghost_opacity: null, skin: null, links: [{ visuals: [box] }] });
 const personOf = (character) => ({ character, links: [{ position: [0, 0, 1], quaternion: [0, 0, 0, 1] }],
   loads: [], support: [], feet: [], held: [], com: null, cop: null });
 const stateOf = (seconds, ...characters) =>

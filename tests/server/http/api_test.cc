@@ -153,11 +153,33 @@ TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
   EXPECT_EQ(palette["clay"], json(kClayColor));
 }
 
+TEST(Details, HaveTheRevisionOfTheSurroundingsOfTheNewestStateOnly) {
+  SceneState state;
+  DetailsExtras extras;
+  const auto told = [&] {
+    return json::parse(DetailsJson(&state, "front", true, extras))["details"]["surroundings"];
+  };
+  EXPECT_TRUE(told().is_null());
+  extras.surroundings = 3;
+  EXPECT_TRUE(told().is_null()) << "a former state does not know them";
+  state.surroundings = 4;
+  EXPECT_EQ(told(), 3) << "those that are made";
+}
+
 TEST(ModelJson, HasTheLookThatTheServerWasStartedWith) {
-  EXPECT_EQ(json::parse(ModelJson(nullptr, {}))["look"],
-            (json{{"loads", "spheres"}, {"style", "matte"}}));
-  EXPECT_EQ(json::parse(ModelJson(nullptr, {true, "both", "clay"}))["look"],
-            (json{{"loads", "both"}, {"style", "clay"}}));
+  EXPECT_EQ(
+      json::parse(ModelJson(nullptr, {}))["look"],
+      (json{
+          {"loads", "spheres"}, {"style", "matte"}, {"trails", json::array()}, {"trail_secs", 2}}));
+  PageLook look{true, "both", "clay"};
+  look.trails = {{-1, {0.5, 0.25, 0}, "centre of mass"}};
+  look.trail_secs = 6;
+  EXPECT_EQ(
+      json::parse(ModelJson(nullptr, look))["look"],
+      (json{{"loads", "both"},
+            {"style", "clay"},
+            {"trails", {{{"segment", -1}, {"name", "centre of mass"}, {"color", {0.5, 0.25, 0}}}}},
+            {"trail_secs", 6}}));
 }
 
 TEST(ModelJson, NamesAllJoints) {

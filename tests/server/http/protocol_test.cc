@@ -134,7 +134,7 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   EXPECT_EQ(in.Get<float>(), 60);
   EXPECT_EQ(in.Get<std::uint32_t>(), 3);
   EXPECT_EQ(in.Get<float>(), -0.75);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, ghosts";
   EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
   EXPECT_EQ(in.Get<float>(), -2.5);
   EXPECT_FLOAT_EQ(in.Get<float>(), static_cast<float>(below));
@@ -182,6 +182,23 @@ TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
   state.objects.resize(300, state.objects.front());
   EXPECT_EQ(EncodeState(state, {0, 1, {}})[60], 255);
   EXPECT_EQ(EncodeState(state, {0, 1, {}}).size(), people + 255 * kObjectBytes);
+}
+
+TEST(StateMessage, HasReferencePosesAfterTheObjects) {
+  SceneState state = Scene();
+  const std::size_t without = EncodeState(state, {0, 1, {}}).size();
+  Ghost ghost{state.people[0]};
+  ghost.person.character = kFirstGhost;
+  ghost.person.loads.clear();
+  ghost.person.forces = BodyForces();
+  state.ghosts = {ghost};
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
+  EXPECT_EQ(bytes[61], 1);
+  const std::size_t size = kPersonHeaderBytes + urdf::kSegmentCount * kLinkBytes + 2 * kFootBytes;
+  ASSERT_EQ(bytes.size(), without + size);
+  const Bytes last(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
+  Reader in(last);
+  EXPECT_EQ(in.Get<std::int32_t>(), kFirstGhost);
 }
 
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {

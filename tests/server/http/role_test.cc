@@ -61,6 +61,7 @@ class RoleOfRouteTest : public ::testing::Test {
     site.diagnostics = [] { return std::string("{}"); };
     site.live_camera = [] { return std::string("iso"); };
     site.alarms = &alarms_;
+    site.surroundings = [] { return std::make_shared<const Surroundings>(); };
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
     return Router(site);
   }

@@ -24,8 +24,7 @@ SceneState BentScene() {
   return scene;
 }
 
-std::vector<render::Ghost> GhostsOf(const std::string& text, double opacity,
-                                    const SceneState& scene) {
+std::vector<Ghost> GhostsOf(const std::string& text, double opacity, const SceneState& scene) {
   GhostValue ghost;
   ghost.Parse(text);
   return GhostPose(ghost, opacity, {}).Make(scene);

@@ -68,7 +68,7 @@ TEST(RenderPlanner, PutsAReferencePoseOnTheFloorAtThePerson) {
     const SceneState scene = Scenes("demo:lift", 25).back();
     const RenderRequest request = planner.Only(scene);
     ASSERT_EQ(request.spec.look.ghosts.size(), 1u);
-    const render::Ghost& ghost = request.spec.look.ghosts[0];
+    const Ghost& ghost = request.spec.look.ghosts[0];
     EXPECT_EQ(ghost.opacity, 0.2);
     const urdf::LinkPoses& links = ghost.person.links;
     const auto& pelvis = scene.people[0].links[urdf::kPelvis].position;

@@ -33,7 +33,7 @@ void RememberTenths(Trails& trails, int from, int to) {
 }
 
 TEST(Trails, HaveTheGivenLengthAndEndAtThePerson) {
-  Trails trails({-1}, 1);
+  Trails trails(TrailSettings{{-1}, 1});
   RememberTenths(trails, 0, 30);
   const auto made = trails.Make();
   ASSERT_THAT(made, SizeIs(1));
@@ -43,14 +43,15 @@ TEST(Trails, HaveTheGivenLengthAndEndAtThePerson) {
 }
 
 TEST(Trails, NeedMoreThanOnePoint) {
-  Trails trails({-1}, 1);
+  Trails trails(TrailSettings{{-1}, 1});
   EXPECT_THAT(trails.Make(), IsEmpty());
   trails.Remember(SceneOnItsWay(0));
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
 TEST(Trails, AcceptBothNamesOfASegment) {
-  Trails trails(*testing::With<ViewOptions>({{"trail", "com,RightHand,left_hand"}}).trail, 1);
+  Trails trails(TrailSettings{
+      *testing::With<ViewOptions>({{"trail", "com,RightHand,left_hand"}}).trails.points, 1});
   EXPECT_FALSE(trails.empty());
   RememberTenths(trails, 0, 3);
   const auto made = trails.Make();
@@ -64,14 +65,14 @@ TEST(Trails, AcceptBothNamesOfASegment) {
 }
 
 TEST(Trails, AreAbsentWithoutNames) {
-  Trails trails({}, 1);
+  Trails trails(TrailSettings{{}, 1});
   EXPECT_TRUE(trails.empty());
   RememberTenths(trails, 0, 3);
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
 TEST(Trails, StartAgainAfterAGapOfTheCentreOfMass) {
-  Trails trails({-1, urdf::kPelvis}, 10);
+  Trails trails(TrailSettings{{-1, urdf::kPelvis}, 10});
   RememberTenths(trails, 0, 5);
   SceneState without = SceneOnItsWay(0.6);
   without.people[0].com.reset();
@@ -84,7 +85,7 @@ TEST(Trails, StartAgainAfterAGapOfTheCentreOfMass) {
 }
 
 TEST(Trails, AreRemovedWithThePersonAndStartAgain) {
-  Trails trails({urdf::kPelvis}, 10);
+  Trails trails(TrailSettings{{urdf::kPelvis}, 10});
   RememberTenths(trails, 0, 5);
   SceneState empty = SceneOnItsWay(0.6);
   empty.people.clear();
@@ -96,7 +97,7 @@ TEST(Trails, AreRemovedWithThePersonAndStartAgain) {
 }
 
 TEST(Trails, AreSeparateForEveryPerson) {
-  Trails trails({urdf::kPelvis}, 10);
+  Trails trails(TrailSettings{{urdf::kPelvis}, 10});
   for (int i = 0; i < 3; ++i) {
     SceneState scene = SceneOnItsWay(0.1 * i);
     scene.people.push_back(SceneOnItsWay(5 + 0.1 * i).people[0]);
@@ -110,7 +111,7 @@ TEST(Trails, AreSeparateForEveryPerson) {
 }
 
 TEST(Trails, LoseTheirLaterPointsWhenARecordingStartsAgain) {
-  Trails trails({urdf::kPelvis}, 10);
+  Trails trails(TrailSettings{{urdf::kPelvis}, 10});
   RememberTenths(trails, 0, 10);
   RememberTenths(trails, 3, 4);
   const auto made = trails.Make();
@@ -120,14 +121,14 @@ TEST(Trails, LoseTheirLaterPointsWhenARecordingStartsAgain) {
 }
 
 TEST(Trails, HaveOnePointForARepeatedScene) {
-  Trails trails({urdf::kPelvis}, 10);
+  Trails trails(TrailSettings{{urdf::kPelvis}, 10});
   RememberTenths(trails, 0, 2);
   RememberTenths(trails, 2, 2);
   EXPECT_THAT(trails.Make().at(0).points, SizeIs(3));
 }
 
 TEST(Trails, DoNotGrowAfterTheStreamStopped) {
-  Trails trails({urdf::kPelvis}, 1);
+  Trails trails(TrailSettings{{urdf::kPelvis}, 1});
   RememberTenths(trails, 0, 2);
   SceneState stale = SceneOnItsWay(0.3);
   stale.liveness = Liveness::kStale;

@@ -50,6 +50,27 @@ TEST(SceneBuilder, ReportsNoDataBeforeTheFirstSample) {
   EXPECT_EQ(built.last().source, "test");
 }
 
+TEST(SceneBuilder, StandsRobotsOnTheFloorAndCountsTheChangesBesideThePeople) {
+  SceneOptions options;
+  options.floor_z = -0.75;
+  Built built(options);
+  RobotState robot;
+  robot.model = std::make_shared<urdf::RobotModel>();
+  robot.world_from_link = {Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3))};
+  built.builder.SetRobots({robot});
+  built.builder.Start();
+  built.builder.OnSample(SampleOf("lift", 0));
+  ASSERT_EQ(built.last().robots.size(), 1u);
+  EXPECT_EQ(built.last().robots[0].world_from_link[0].translation(), Vector3d(1, 2, 2.25));
+  const std::uint64_t before = built.last().surroundings;
+  EXPECT_GT(before, 0u);
+  built.builder.OnSample(SampleOf("lift", 1));
+  EXPECT_EQ(built.last().surroundings, before) << "nothing has changed";
+  built.builder.SetMarkers({std::make_shared<const SceneMarker>()});
+  built.builder.OnSample(SampleOf("lift", 2));
+  EXPECT_EQ(built.last().surroundings, before + 1);
+}
+
 TEST(SceneBuilder, HasTheHeadingOfLiveViewsInEveryState) {
   const auto turned = [](double secs) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(M_PI, Vector3d::UnitZ()));

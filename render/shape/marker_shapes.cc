@@ -1,0 +1,123 @@
+#include "render/shape/marker_shapes.h"
+
+#include <algorithm>
+
+#include "render/shape/marker_mesh.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr std::size_t kMaxMarkers = 10'000;
+constexpr std::size_t kMaxMeshFiles = 64;  // kept
+constexpr std::size_t kMaxProblems = 20;   // named; a flood of markers is one fault, not thousands
+constexpr char kTooManyTriangles[] = "all markers together have too many triangles";
+
+bool IsTranslucent(const SceneMarker& marker) {
+  const auto is_clear = [](const Eigen::Vector4d& color) { return color.w() < 1; };
+  return marker.colors.empty() ? is_clear(marker.color)
+                               : std::any_of(marker.colors.begin(), marker.colors.end(), is_clear);
+}
+
+Label TextOf(const SceneMarker& marker) {
+  const Eigen::Vector4d& c = marker.color;
+  return {marker.pose.position, marker.text,           Label::Kind::kMarker,
+          marker.scale.z(),     {c.x(), c.y(), c.z()}, c.w()};
+}
+
+std::string NotDrawn(const SceneMarker& marker, const std::string& why) {
+  return "marker " + IdentityOf(marker) + " is not drawn: " + why;
+}
+
+void Shorten(std::vector<std::string>& problems) {
+  if (problems.size() <= kMaxProblems) return;
+  const std::size_t more = problems.size() - kMaxProblems;
+  problems.resize(kMaxProblems);
+  problems.push_back("and " + std::to_string(more) + " more markers");
+}
+
+}  // namespace
+
+MarkerShapes MarkerReader::Read(const std::vector<std::shared_ptr<const SceneMarker>>& markers) {
+  triangles_ = 0;
+  MarkerShapes shapes;
+  const std::size_t count = std::min(markers.size(), kMaxMarkers);
+  for (std::size_t i = 0; i < count; ++i) Add(*markers[i], shapes);
+  if (markers.size() > kMaxMarkers) {
+    shapes.problems.push_back(
+        NotDrawn(*markers[kMaxMarkers], "there are " + std::to_string(markers.size()) +
+                                            " markers, more than " + std::to_string(kMaxMarkers)));
+  }
+  Shorten(shapes.problems);
+  return shapes;
+}
+
+bool MarkerReader::HasRoomFor(std::size_t triangles) {
+  if (triangles_ + triangles > most_triangles_) return false;
+  triangles_ += triangles;
+  return true;
+}
+
+void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
+  if (const auto defect = FindDefect(marker)) {
+    to.problems.push_back(NotDrawn(marker, *defect));
+    return;
+  }
+  if (marker.type == MarkerType::kText) {
+    to.labels.push_back(TextOf(marker));
+    return;
+  }
+  urdf::Mesh& mesh = IsTranslucent(marker) ? to.blended : to.solid;
+  const std::size_t first = mesh.positions.size();
+  if (marker.type == MarkerType::kMesh) {
+    AddMesh(marker, mesh, to);
+  } else if (HasRoomFor(TriangleCount(marker))) {
+    AppendMarker(marker, mesh);
+  } else {
+    to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
+  }
+  if (mesh.positions.size() == first) return;
+  Eigen::AlignedBox3f& box = to.boxes.emplace_back();
+  for (std::size_t i = first; i < mesh.positions.size(); ++i) box.extend(mesh.positions[i]);
+}
+
+const VisualMesh& MarkerReader::MeshOf(const std::string& uri) {
+  const auto known = meshes_.find(uri);
+  if (known != meshes_.end()) return known->second;
+  if (meshes_.size() >= kMaxMeshFiles) meshes_.clear();
+  urdf::Visual visual;
+  visual.geometry = {urdf::Geometry::Kind::kMesh, Eigen::Vector3d::Ones(), uri};
+  visual.rgba = Eigen::Vector4d::Zero();  // stays where the file has no colour
+  VisualReader reader(urdf::MakeMeshSearch({}, {}), urdf::ShapeDetail::Robot());
+  VisualMesh& mesh = meshes_[uri];
+  reader.Add(visual, 0, mesh);
+  return mesh;
+}
+
+void MarkerReader::AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerShapes& to) {
+  const VisualMesh& file = MeshOf(marker.mesh_uri);
+  for (const std::string& problem : file.problems) {
+    to.problems.push_back("marker " + IdentityOf(marker) + ": " + problem);
+  }
+  const bool is_file = file.placeholders.empty();
+  Eigen::Affine3d place(Eigen::Translation3d(marker.pose.position) * marker.pose.orientation);
+  if (is_file) {
+    place.scale(marker.scale);
+  } else {
+    to.labels.push_back(
+        {marker.pose.position, file.placeholders.front().label, Label::Kind::kFault});
+  }
+  if (!HasRoomFor(file.mesh.triangles.size() / 3)) {
+    to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
+    return;
+  }
+  to.is_closed = to.is_closed && file.is_closed;
+  const std::size_t first = mesh.positions.size();
+  mesh.Append(file.mesh, place);
+  if (is_file) mesh.Paint(first, marker.color.cast<float>(), 0);
+  if (!marker.mesh_has_own_colors || !is_file) return;
+  for (std::size_t i = 0; i < file.mesh.colors.size(); ++i) {
+    if (file.mesh.colors[i].w() > 0) mesh.colors[first + i] = file.mesh.colors[i];
+  }
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,47 @@
+/// Converts all external markers of a scene to triangles, texts and boxes: what pictures and the
+/// page show of them. World, metres. One thread.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene_marker.h"
+#include "render/module.h"
+#include "render/shape/visual_mesh.h"
+
+namespace kinescope::render {
+
+struct MarkerShapes {
+  urdf::Mesh solid,
+      blended;            // with their colours; `blended`: markers that let others shine through
+  bool is_closed = true;  // no surface of `solid` is visible from its back
+  std::vector<Eigen::AlignedBox3f> boxes;  // around each marker with triangles
+  std::vector<Label> labels;               // texts, and the names of missing meshes
+  /// Markers that are not shown, or whose mesh is replaced by a box: one line each, with the marker
+  /// and the reason. A flood of them ends with their number.
+  std::vector<std::string> problems;
+};
+
+class MarkerReader {
+ public:
+  /// `most_triangles`: of all markers together; those beyond it are left out, and named.
+  explicit MarkerReader(std::size_t most_triangles) : most_triangles_(most_triangles) {}
+
+  MarkerShapes Read(const std::vector<std::shared_ptr<const SceneMarker>>& markers);
+
+ private:
+  void Add(const SceneMarker& marker, MarkerShapes& to);
+  void AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerShapes& to);
+  [[nodiscard]] bool HasRoomFor(std::size_t triangles);
+  const VisualMesh& MeshOf(const std::string& uri);
+
+  const std::size_t most_triangles_;
+  std::size_t triangles_ = 0;                 // of those that are read now
+  std::map<std::string, VisualMesh> meshes_;  // by URI
+};
+
+}  // namespace kinescope::render

@@ -1,0 +1,201 @@
+#include "render/shape/surroundings_glb.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "core/color_difference.h"
+#include "urdf/rig/glb_writer.h"
+
+namespace kinescope::render {
+namespace {
+
+using nlohmann::json;
+using rig::GlbWriter;
+
+constexpr double kFarthest = 1e6;  // m; a link that is farther away is not where it should be
+
+// Texts that come from other programs may not be UTF-8, and JSON must be.
+std::string Utf8(const std::string& text) {
+  const std::string quoted = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json::parse(quoted).get<std::string>();
+}
+
+std::uint16_t LinearOf(float srgb) {
+  constexpr double kMost = 65535;
+  return static_cast<std::uint16_t>(
+      std::lround(kMost * ToLinear(std::clamp(static_cast<double>(srgb), 0.0, 1.0))));
+}
+
+bool CanBeShown(const Eigen::Isometry3d& pose) {
+  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < kFarthest;
+}
+
+// The meshes of one file. Its root turns the world's axes to those of the format, so that
+// everything below it is in world coordinates.
+class Document {
+ public:
+  Document() {
+    const Eigen::Quaterniond turn(rig::GlbAxes());
+    nodes_ = {{{"name", "surroundings"},
+               {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
+               {"children", json::array()}}};
+    json& document = glb_.document();
+    // Colours are those of the vertices.
+    const json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.7}};
+    document["materials"] = {
+        {{"pbrMetallicRoughness", surface}},
+        {{"pbrMetallicRoughness", surface}, {"doubleSided", true}},
+        {{"pbrMetallicRoughness", surface}, {"doubleSided", true}, {"alphaMode", "BLEND"}}};
+  }
+
+  enum Material { kClosed, kOpen, kBlended };
+
+  struct Part {
+    const urdf::Mesh& mesh;
+    Material material;
+  };
+
+  void AddMeshes(const std::string& name, const std::vector<Part>& parts) {
+    json primitives = json::array();
+    for (const Part& part : parts) {
+      if (!part.mesh.triangles.empty()) primitives.push_back(Primitive(part));
+    }
+    if (primitives.empty()) return;
+    json& meshes = glb_.document()["meshes"];
+    meshes.push_back({{"primitives", std::move(primitives)}});
+    AddNode({{"name", Utf8(name)}, {"mesh", meshes.size() - 1}});
+  }
+
+  void AddLabel(const Label& label) {
+    AddNode({{"name", "label"},
+             {"translation", {label.position.x(), label.position.y(), label.position.z()}},
+             {"extras",
+              {{"text", Utf8(label.text)},
+               {"height", label.height_m},
+               {"color", label.color},
+               {"opacity", label.opacity}}}});
+  }
+
+  std::string Write(const std::vector<std::string>& problems) {
+    json lines = json::array();
+    for (const std::string& problem : problems) lines.push_back(Utf8(problem));
+    json& document = glb_.document();
+    if (nodes_[0]["children"].empty()) nodes_[0].erase("children");
+    document["nodes"] = std::move(nodes_);
+    document["scenes"] = {{{"nodes", {0}}, {"extras", {{"problems", std::move(lines)}}}}};
+    return glb_.Write();
+  }
+
+ private:
+  void AddNode(json node) {
+    nodes_[0]["children"].push_back(nodes_.size());
+    nodes_.push_back(std::move(node));
+  }
+
+  json Primitive(const Part& part) {
+    const urdf::Mesh& mesh = part.mesh;
+    std::vector<float> positions, normals;
+    std::vector<std::uint16_t> colors;
+    positions.reserve(3 * mesh.positions.size());
+    normals.reserve(3 * mesh.normals.size());
+    colors.reserve(4 * mesh.colors.size());
+    for (const Eigen::Vector3f& p : mesh.positions) {
+      positions.insert(positions.end(), p.begin(), p.end());
+    }
+    for (const Eigen::Vector3f& n : mesh.normals) normals.insert(normals.end(), n.begin(), n.end());
+    for (const Eigen::Vector4f& c : mesh.colors) {
+      for (int i = 0; i < 3; ++i) colors.push_back(LinearOf(c[i]));
+      colors.push_back(static_cast<std::uint16_t>(65535 * std::clamp(c.w(), 0.0f, 1.0f)));
+    }
+    const GlbWriter::Kind triples = {GlbWriter::kFloat, "VEC3", 3, GlbWriter::kOfVertices};
+    json attributes = {{"POSITION", glb_.AddPositions(positions)},
+                       {"NORMAL", glb_.Add(normals, triples)},
+                       {"COLOR_0", glb_.Add(colors, {GlbWriter::kUnsignedShort, "VEC4", 4,
+                                                     GlbWriter::kOfVertices})}};
+    const std::size_t color = attributes["COLOR_0"].get<std::size_t>();
+    glb_.document()["accessors"][color]["normalized"] = true;
+    return {{"attributes", std::move(attributes)},
+            {"indices", glb_.Add(mesh.triangles,
+                                 {GlbWriter::kUnsignedInt, "SCALAR", 1, GlbWriter::kOfIndices})},
+            {"material", static_cast<int>(part.material)}};
+  }
+
+  GlbWriter glb_;
+  json nodes_;
+};
+
+// Where the robot's links are; parts of links that are nowhere are left out.
+urdf::Mesh Placed(const urdf::Mesh& mesh, const RobotState& robot) {
+  const auto pose_of = [&](std::size_t vertex) -> const Eigen::Isometry3d* {
+    const auto link = static_cast<std::size_t>(mesh.parts[vertex]);
+    if (link >= robot.world_from_link.size()) return nullptr;
+    const Eigen::Isometry3d& pose = robot.world_from_link[link];
+    return CanBeShown(pose) ? &pose : nullptr;
+  };
+  urdf::Mesh placed = mesh;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Eigen::Isometry3d* pose = pose_of(i);
+    if (pose == nullptr) continue;
+    placed.positions[i] = (*pose * mesh.positions[i].cast<double>()).cast<float>();
+    placed.normals[i] = (pose->linear() * mesh.normals[i].cast<double>()).cast<float>();
+  }
+  placed.triangles.clear();
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    if (pose_of(mesh.triangles[i]) == nullptr) continue;
+    placed.triangles.insert(placed.triangles.end(), &mesh.triangles[i], &mesh.triangles[i] + 3);
+  }
+  return placed;
+}
+
+}  // namespace
+
+const SurroundingsGlb::RobotShape& SurroundingsGlb::ShapeOf(const RobotState& robot) {
+  const auto [known, is_new] = robots_.try_emplace(robot.model.get());
+  RobotShape& shape = known->second;
+  if (!is_new) return shape;
+  shape.model = robot.model;
+  VisualReader reader(robot.meshes ? *robot.meshes : urdf::MeshSearch(),
+                      urdf::ShapeDetail::Robot());
+  for (std::size_t link = 0; link < robot.model->links.size(); ++link) {
+    for (const urdf::Visual& visual : robot.model->links[link].visuals) {
+      const double opacity = visual.rgba ? visual.rgba->w() : 1;
+      if (opacity <= 0) continue;
+      reader.Add(visual, static_cast<int>(link), opacity < 1 ? shape.blended : shape.solid);
+    }
+  }
+  return shape;
+}
+
+std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const SceneMarker>>& markers,
+                                   const std::vector<RobotState>& robots) {
+  Document document;
+  MarkerShapes shapes = markers_.Read(markers);
+  document.AddMeshes("markers",
+                     {{shapes.solid, shapes.is_closed ? Document::kClosed : Document::kOpen},
+                      {shapes.blended, Document::kBlended}});
+  for (const Label& label : shapes.labels) document.AddLabel(label);
+  std::vector<std::string> problems = std::move(shapes.problems);
+  for (const RobotState& robot : robots) {
+    const RobotShape& shape = ShapeOf(robot);
+    document.AddMeshes("robot " + robot.name,
+                       {{Placed(shape.solid.mesh, robot),
+                         shape.solid.is_closed ? Document::kClosed : Document::kOpen},
+                        {Placed(shape.blended.mesh, robot), Document::kBlended}});
+    for (const VisualMesh* mesh : {&shape.solid, &shape.blended}) {
+      problems.insert(problems.end(), mesh->problems.begin(), mesh->problems.end());
+    }
+  }
+  const auto is_gone = [&](const auto& known) {
+    return std::none_of(robots.begin(), robots.end(),
+                        [&](const RobotState& robot) { return robot.model.get() == known.first; });
+  };
+  for (auto it = robots_.begin(); it != robots_.end();) {
+    it = is_gone(*it) ? robots_.erase(it) : std::next(it);
+  }
+  return document.Write(problems);
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,64 @@
+#include "server/app/serve/surroundings_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+
+namespace kinescope::app {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr seconds kPatience{30};  // only a failure takes so long
+
+std::shared_ptr<const SceneState> With(std::uint64_t revision, const std::string& text) {
+  auto marker = std::make_shared<SceneMarker>();
+  marker->type = MarkerType::kText;
+  marker->text = text;
+  auto state = std::make_shared<SceneState>();
+  state->surroundings = revision;
+  state->markers = {std::move(marker)};
+  return state;
+}
+
+TEST(SurroundingsLoop, MakesTheNewestOnceAfterEachChange) {
+  Latest<http::Surroundings> made;
+  SurroundingsLoop loop([] { return true; }, made);
+  std::uint64_t version = 0;
+  loop.OnState(std::make_shared<SceneState>());
+  EXPECT_EQ(made.Get(), nullptr) << "there is nothing beside the people";
+  loop.OnState(With(1, "first"));
+  auto first = made.WaitNewer(version, kPatience);
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->revision, 1u);
+  EXPECT_NE(first->glb.find("first"), std::string::npos);
+  loop.OnState(With(1, "not looked at: the revision is the same"));
+  for (int i = 2; i <= 9; ++i) loop.OnState(With(static_cast<std::uint64_t>(i), "later"));
+  auto last = made.WaitNewer(version, kPatience);
+  while (last != nullptr && last->revision < 9) last = made.WaitNewer(version, kPatience);
+  ASSERT_NE(last, nullptr);
+  EXPECT_LE(version, 3u) << "not every one of those that came at once";
+}
+
+TEST(SurroundingsLoop, WaitsForViewers) {
+  Latest<http::Surroundings> made;
+  std::atomic<int> asked{0};
+  std::atomic<bool> has_viewers{false};
+  SurroundingsLoop loop(
+      [&] {
+        ++asked;
+        return has_viewers.load();
+      },
+      made);
+  loop.OnState(With(1, "wall"));
+  while (asked < 2) std::this_thread::yield();
+  EXPECT_EQ(made.Get(), nullptr);
+  has_viewers = true;
+  std::uint64_t version = 0;
+  ASSERT_NE(made.WaitNewer(version, kPatience), nullptr);
+}
+
+}  // namespace
+}  // namespace kinescope::app

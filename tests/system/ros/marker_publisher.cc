@@ -1,0 +1,73 @@
+// Publishes one marker of each type, but for the mesh, on /samples, and says `published` on its
+// standard output when a subscriber is there. Until the end of its standard input.
+#include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <iostream>
+#include <string>
+
+#include "tests/render/marker_samples.h"
+
+namespace kinescope {
+namespace {
+
+visualization_msgs::Marker ToMessage(const SceneMarker& marker) {
+  visualization_msgs::Marker message;
+  message.header.frame_id = "world";
+  message.ns = marker.ns;
+  message.id = marker.id;
+  message.type = static_cast<int>(marker.type);
+  const Eigen::Quaterniond& turn = marker.pose.orientation;
+  message.pose.position.x = marker.pose.position.x();
+  message.pose.position.y = marker.pose.position.y();
+  message.pose.position.z = marker.pose.position.z();
+  message.pose.orientation.x = turn.x();
+  message.pose.orientation.y = turn.y();
+  message.pose.orientation.z = turn.z();
+  message.pose.orientation.w = turn.w();
+  message.scale.x = marker.scale.x();
+  message.scale.y = marker.scale.y();
+  message.scale.z = marker.scale.z();
+  const auto color = [](const Eigen::Vector4d& from) {
+    std_msgs::ColorRGBA to;
+    to.r = static_cast<float>(from.x());
+    to.g = static_cast<float>(from.y());
+    to.b = static_cast<float>(from.z());
+    to.a = static_cast<float>(from.w());
+    return to;
+  };
+  message.color = color(marker.color);
+  for (const Eigen::Vector3d& point : marker.points) {
+    message.points.emplace_back();
+    message.points.back().x = point.x();
+    message.points.back().y = point.y();
+    message.points.back().z = point.z();
+  }
+  for (const Eigen::Vector4d& each : marker.colors) message.colors.push_back(color(each));
+  message.text = marker.text;
+  return message;
+}
+
+int Main(int argc, char** argv) {
+  ros::init(argc, argv, "marker_publisher");
+  ros::NodeHandle node;
+  visualization_msgs::MarkerArray array;
+  for (const SceneMarker& marker : testing::MarkersOfAllTypes("")) {
+    if (marker.type != MarkerType::kMesh) array.markers.push_back(ToMessage(marker));
+  }
+  const ros::Publisher publisher = node.advertise<visualization_msgs::MarkerArray>(
+      "/samples", 1,
+      [](const ros::SingleSubscriberPublisher&) { std::cout << "published" << std::endl; }, {}, {},
+      /*latch=*/true);
+  publisher.publish(array);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  std::string line;
+  while (std::getline(std::cin, line)) continue;
+  return 0;
+}
+
+}  // namespace
+}  // namespace kinescope
+
+int main(int argc, char** argv) { return kinescope::Main(argc, argv); }

@@ -1,0 +1,111 @@
+// What is beside the people: external markers and robots, as the server makes them of the triangles of its pictures.
+import * as THREE from 'three';
+import { readLabelText, readSurroundings } from './messages.js';
+import { request } from './server_api.js';
+
+const RETRY_MILLIS = 1000;
+const NOTE_HEIGHT = 0.05;   // m, of a capital in the name of a missing mesh
+const CAPITAL_SHARE = 0.73; // of a font's size
+const TEXT_PIXELS = 64;     // size of the font of a label's texture
+// From the axes of GLB to the world's: x forward, y left, z up.
+const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
+
+export class Surroundings {
+  group = new THREE.Group();
+  /** @type {string[]} */ problems = [];
+  #shown = /** @type {number|null} */ (null);  // revision
+  #asked = { revision: /** @type {number|null} */ (null), at: -Infinity };
+  #isLoading = false;
+
+  /** @param {() => void} onChange */
+  constructor(onChange) {
+    this.group.quaternion.copy(WORLD_FROM_FILE);
+    this.onChange = onChange;
+  }
+
+  /** Shows those of the server as soon as they are loaded. Call it often.
+   *  @param {number|null} revision  null: there are none, or those of the moment on the screen are not known
+   *  @param {number} now */
+  update(revision, now) {
+    if (revision === null && this.#shown !== null) this.#show(null, null, []);
+    const isAsked = this.#asked.revision === revision && now - this.#asked.at < RETRY_MILLIS;
+    if (revision === null || revision === this.#shown || this.#isLoading || isAsked) return;
+    this.#asked = { revision, at: now };
+    this.#load(revision);
+  }
+
+  /** @param {number} revision */
+  async #load(revision) {
+    this.#isLoading = true;
+    try {
+      const answer = await request(`api/v1/surroundings.glb?t=${revision}`);
+      const bytes = await answer.arrayBuffer();
+      const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
+      const { scene } = await new GLTFLoader().parseAsync(bytes, '');
+      if (this.#asked.revision === revision) this.#show(revision, scene, readSurroundings(scene.userData, 'extras').problems);
+    } catch {
+      this.problems = ['Could not load the external markers and robots'];
+    }
+    this.#isLoading = false;
+  }
+
+  /** @param {number|null} revision
+   *  @param {THREE.Object3D|null} scene
+   *  @param {string[]} problems */
+  #show(revision, scene, problems) {
+    this.group.traverse(dispose);
+    this.group.clear();
+    this.#shown = revision;
+    this.problems = problems;
+    if (revision === null) this.#asked.revision = null;
+    if (scene !== null) {
+      scene.traverse(prepare);
+      this.group.add(scene);
+    }
+    this.onChange();
+  }
+}
+
+/** @param {THREE.Object3D} part
+ *  @returns {part is THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>} */
+const isMesh = (part) => part instanceof THREE.Mesh;
+
+/** @param {THREE.Object3D} part */
+function prepare(part) {
+  if (isMesh(part)) {
+    part.material.fog = false;  // only the floor ends in the distance
+    part.castShadow = !part.material.transparent;
+  } else if ('text' in part.userData) {
+    part.add(makeText(readLabelText(part.userData, 'extras')));
+  }
+}
+
+/** @param {THREE.Object3D} part */
+function dispose(part) {
+  if (isMesh(part)) part.geometry.dispose();
+  if (!(isMesh(part) || part instanceof THREE.Sprite)) return;
+  part.material.map?.dispose();
+  part.material.dispose();
+}
+
+/** A text that is as high as it is in the world, and in front of everything, as in pictures.
+ *  @param {import('./messages.js').LabelText} label */
+function makeText({ text, height, color, opacity }) {
+  const canvas = document.createElement('canvas');
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  const font = `${TEXT_PIXELS}px "DejaVu Sans", sans-serif`;
+  pen.font = font;
+  canvas.width = Math.max(1, Math.ceil(pen.measureText(text).width));
+  canvas.height = Math.ceil(1.4 * TEXT_PIXELS);
+  pen.font = font;  // resizing a canvas resets its font
+  pen.fillStyle = `rgb(${color.map((channel) => Math.round(255 * channel)).join(' ')} / ${opacity})`;
+  pen.textBaseline = 'middle';
+  pen.fillText(text, 0, canvas.height / 2);
+  const map = new THREE.CanvasTexture(canvas);
+  map.colorSpace = THREE.SRGBColorSpace;
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, fog: false }));
+  const metresPerPixel = (height || NOTE_HEIGHT) / (CAPITAL_SHARE * TEXT_PIXELS);
+  sprite.scale.set(canvas.width * metresPerPixel, canvas.height * metresPerPixel, 1);
+  sprite.renderOrder = 20;
+  return sprite;
+}
