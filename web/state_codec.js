@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 4;
+export const VERSION = 5;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
@@ -109,21 +109,25 @@ export function decodePicture(buffer) {
   return { stateNumber: bytes.f64(), arrivalMicros: bytes.f64(), jpeg: new Uint8Array(buffer, bytes.skip(0)) };
 }
 
-/** The answer to a request for a former state.
+/** The answer to a request for former states.
  *  @param {ArrayBuffer} buffer
- *  @returns {{id: number, state: State, details: string}}  details: a text message */
+ *  @returns {{id: number, untilMicros: number, moments: {state: State, details: string}[]}}  untilMicros: up to when there are
+ *    no other states; moments: oldest first; details: a text message */
 export function decodePast(buffer) {
   const bytes = new Bytes(buffer);
-  bytes.skip(4);
-  const id = bytes.u32();
-  const stateBytes = bytes.u32(), detailsBytes = bytes.u32();
-  const state = bytes.skip(stateBytes), details = bytes.skip(detailsBytes);
+  bytes.skip(2);
+  const count = bytes.u16(), id = bytes.u32(), untilMicros = bytes.f64();
+  let details = '';
+  const moments = bytes.list(count, () => {
+    const stateBytes = bytes.u32(), detailsBytes = bytes.u32();
+    const stateAt = bytes.skip(stateBytes), detailsAt = bytes.skip(detailsBytes);
+    // Without details, those of the state before.
+    if (detailsBytes > 0) details = new TextDecoder().decode(new Uint8Array(buffer, detailsAt, detailsBytes));
+    return { state: decodeState(buffer.slice(stateAt, stateAt + stateBytes)), details };
+  });
   bytes.end();
-  return {
-    id,
-    state: decodeState(buffer.slice(state, state + stateBytes)),
-    details: new TextDecoder().decode(new Uint8Array(buffer, details, detailsBytes)),
-  };
+  if (count === 0) throw new Error('the server sent no former state; reload the page');
+  return { id, untilMicros, moments };
 }
 
 /** @param {Bytes} bytes */

@@ -27,16 +27,23 @@ test('a state of two people, gloves and an object is decoded as the server encod
   assertClose(decodeState(state), told.state);
 });
 
-test('a former state comes with the id of its request and its details', () => {
+test('former states come with the id of their request and with details, which are not repeated', () => {
   const past = toBuffer(told.past_hex);
   assert.equal(messageKind(past), KIND.past);
-  const { id, state: former, details } = decodePast(past);
+  const { id, untilMicros, moments } = decodePast(past);
   assert.equal(id, 7);
-  assertClose(former, told.state);
-  assert.equal(details, '{"details": 5}');
+  assert.equal(untilMicros, 2_500_000);
+  assert.equal(moments.length, 2);
+  for (const { state: former, details } of moments) {
+    assertClose(former, told.state);
+    assert.equal(details, '{"details": 5}');
+  }
   for (const size of [7, 15, 20, past.byteLength - 1]) {
     assert.throws(() => decodePast(past.slice(0, size)), /truncated/, `taken at ${size} bytes`);
   }
+  const none = past.slice(0, 16);
+  new DataView(none).setUint16(2, 0, true);
+  assert.throws(() => decodePast(none), /no former state/);
 });
 
 test('every truncated state is rejected', () => {
