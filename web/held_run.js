@@ -5,13 +5,11 @@ const RUN_MILLIS = 500;    // of playing, in one request
 const EVERY_MILLIS = 12;   // of playing, between two states: more than 83 per second are not seen
 const MOST_THINNED = 8;    // times that, on a slow connection
 
-/** @typedef {import('./state_codec.js').State} State
- *  @typedef {import('./messages.js').Details} Details
- *  @typedef {{state: State, details: Details}} Former
+/** @typedef {import('./state_codec.js').FormerState} FormerState
  *  @typedef {import('./look_back.js').Run} Run */
 
 export class HeldRun {
-  /** @type {Former[]} */ #formers = [];  // oldest first
+  /** @type {FormerState[]} */ #formers = [];  // oldest first
   #from = NaN;   // there are no other states from here
   #until = NaN;  // to here
   #shown = NaN;  // the last moment that was shown
@@ -20,7 +18,7 @@ export class HeldRun {
   /** The state to be shown at a moment; null: another one has to be asked for.
    *  @param {number} micros
    *  @param {number} speed
-   *  @returns {Former|null} */
+   *  @returns {FormerState|null} */
   at(micros, speed) {
     if (!this.#isNear(micros, speed)) return null;
     this.#shown = micros;
@@ -41,16 +39,16 @@ export class HeldRun {
     };
   }
 
-  /** @param {Former[]} formers  an answer; oldest first
+  /** @param {FormerState[]} formers  an answer; oldest first
    *  @param {number} from  the first moment asked for
    *  @param {number} until  up to when the answer is complete */
   add(formers, from, until) {
     const isNext = from >= this.#from && from <= this.#until;
     if (isNext) {
-      const last = this.#formers.at(-1)?.state.stateNumber ?? -1;
+      const last = this.#formers.at(-1)?.stateNumber ?? -1;
       const used = this.#placeAt(this.#shown), kept = this.#formers.slice(used);
-      if (used > 0) this.#from = kept[0].state.madeMicros;
-      this.#formers = [...kept, ...formers.filter(({ state }) => state.stateNumber > last)];
+      if (used > 0) this.#from = kept[0].madeMicros;
+      this.#formers = [...kept, ...formers.filter(({ stateNumber }) => stateNumber > last)];
     } else {
       this.#formers = formers;
       this.#from = from;
@@ -68,7 +66,7 @@ export class HeldRun {
   /** Of the newest state at a moment; of the first one if all are newer.
    *  @param {number} micros */
   #placeAt(micros) {
-    const after = this.#formers.findIndex(({ state }) => state.madeMicros > micros);
+    const after = this.#formers.findIndex(({ madeMicros }) => madeMicros > micros);
     return Math.max(0, (after === -1 ? this.#formers.length : after) - 1);
   }
 

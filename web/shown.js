@@ -3,6 +3,7 @@ import { showInAddress } from './address.js';
 import { HeldRun } from './held_run.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
+import { messageOf } from './server_api.js';
 import { ViewerTime } from './viewer_time.js';
 
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
@@ -10,6 +11,7 @@ const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per
 const FEW_STATES_MILLIS = 300;
 
 /** @typedef {import('./state_codec.js').State} State
+ *  @typedef {import('./state_codec.js').FormerState} FormerState
  *  @typedef {import('./messages.js').Details} Details
  *  @typedef {import('./viewer_time.js').Kept} Kept
  *  @typedef {{send: (command: object) => void, notice: (text: string) => void, changed: () => void,
@@ -28,7 +30,8 @@ export class Shown {
     marks_revision: null, class_limits: [0.3, 0.6],
   };
   #newestAt = 0;  // browser's clock, ms
-  /** @type {import('./held_run.js').Former|null} */ #past = null;
+  /** @type {{state: State, details: Details}|null} */ #past = null;
+  /** @type {{text: string, details: Details}|null} */ #pastDetails = null;  // as they were last read
   #run = new HeldRun();  // while it plays
   #wantsFew = false;     // as the server was told
   #askedMicros = NaN;  // of the moment last asked for
@@ -159,9 +162,10 @@ export class Shown {
   #play(micros, now) {
     const { speed } = this.time;
     const former = this.#run.at(micros, speed);
-    if (former !== null && former.state !== this.#past?.state) {
-      this.#past = former;
-      this.#page.arrived();
+    try {
+      if (former !== null) this.#show(former);
+    } catch (error) {  // it is not as described
+      this.#page.notice(messageOf(error));
     }
     const wanted = this.#run.next(micros, speed);
     if (wanted === null) return;
@@ -189,32 +193,37 @@ export class Shown {
   onPast(answer) {
     const now = performance.now(), answered = this.#lookBack.onAnswer(answer.id, now), range = this.kept();
     if (answered === null || this.#past === null || range === null) return;
-    const formers = this.#read(answer.moments), last = formers[formers.length - 1];
+    const { formers } = answer, last = formers[formers.length - 1];
     if (this.time.isPlaying) {  // the next drawing shows it
       const { wanted } = answered;
+      this.#step = null;
       if ('until_micros' in wanted) this.#run.setPace(answered.tookMillis - answered.leastMillis);
-      return this.#run.add(formers, 'micros' in wanted ? wanted.micros : last.state.madeMicros, answer.untilMicros);
+      return this.#run.add(formers, 'micros' in wanted ? wanted.micros : last.madeMicros, answer.untilMicros);
     }
     if ('until_micros' in answered.wanted) return;  // it was paused meanwhile
     if (this.#isStillThere(last.state)) return this.#askNextTo(last.state, now);
-    this.#past = last;
     // To the sample itself, so that a step leads to another one.
-    if (!this.time.isGone(now, range)) this.time.pause(now, range, last.state.madeMicros / 1000);
-    this.#askedMicros = microsOf(last.state.madeMicros / 1000);
+    if (!this.time.isGone(now, range)) this.time.pause(now, range, last.madeMicros / 1000);
+    this.#askedMicros = microsOf(last.madeMicros / 1000);
+    this.#show(last);
+  }
+
+  /** @param {FormerState} former */
+  #show(former) {
+    if (former.state === this.#past?.state) return;
+    this.#past = { state: former.state, details: this.#read(former.details) };
     this.#page.arrived();
   }
 
-  /** @param {ReturnType<typeof import('./state_codec.js').decodePast>['moments']} moments */
-  #read(moments) {
-    let text = '', details = this.#newestDetails;
-    return moments.map((moment) => {
-      if (moment.details !== text) {
-        const message = readTextMessage(moment.details);
-        details = message && 'details' in message ? message.details : this.#newestDetails;
-        text = moment.details;
-      }
-      return { state: moment.state, details };
-    });
+  /** @param {string} text  a message with details; many states have the same
+   *  @returns {Details} */
+  #read(text) {
+    if (this.#pastDetails?.text !== text) {
+      const message = readTextMessage(text);
+      if (message === null || !('details' in message)) return this.#newestDetails;
+      this.#pastDetails = { text, details: message.details };
+    }
+    return this.#pastDetails.details;
   }
 
   /** Whether the state has the sample that the step began at: a sample may have several states, such as one more when

@@ -151,7 +151,7 @@ test('who plays the past asks for it twice a second, and is sent the newest stat
   assert.deepEqual(traffic.few, [true]);
   const looks = traffic.looks.length - before.looks, former = traffic.former - before.former;
   assert.ok(looks <= 3 + 5 * seconds, `${looks} requests in ${seconds} s`);
-  assert.ok(former >= 100, `${former} former states`);
+  assert.ok(former > 3 * looks, `${former} former states by ${looks} requests`);  // fewer on a busy machine
   assert.ok(traffic.states - before.states <= 2 + 5 * seconds, `${traffic.states - before.states} newest states in ${seconds} s`);
   // Single moments are asked for alone, also while it plays.
   const runs = traffic.looks.length;

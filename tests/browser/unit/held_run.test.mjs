@@ -6,7 +6,7 @@ const SECOND = 1e6;  // µs
 
 /** Former states, one each 10 ms; their number is the hundredth of a second. */
 const formers = (first, last) => Array.from({ length: last - first + 1 }, (_, i) => (
-  /** @type {any} */ ({ state: { stateNumber: first + i, madeMicros: 10_000 * (first + i) }, details: {} })));
+  /** @type {any} */ ({ stateNumber: first + i, madeMicros: 10_000 * (first + i) })));
 
 /** Has 1 s to 1.5 s. */
 function setUp() {
@@ -14,7 +14,7 @@ function setUp() {
   run.add(formers(100, 150), SECOND, 1.5 * SECOND);
   return run;
 }
-const numberAt = (run, micros, speed = 1) => run.at(micros, speed)?.state.stateNumber ?? null;
+const numberAt = (run, micros, speed = 1) => run.at(micros, speed)?.stateNumber ?? null;
 
 test('without a run, the moment itself is asked for, at once', () => {
   assert.equal(new HeldRun().at(5, 1), null);
