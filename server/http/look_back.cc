@@ -9,7 +9,7 @@
 namespace kinescope::http {
 namespace {
 
-constexpr std::size_t kStatesPerDetails = 8;
+constexpr std::size_t kStatesPerDetails = 16;
 
 // Decides which states of a run come with details.
 class RunDetails {
