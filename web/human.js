@@ -1,9 +1,10 @@
 // The person in the view: the skin, the links of /api/v1/model at the streamed poses, load spheres, CoM, CoP, support
-// polygon and hand loads. World frame: z up, metres.
+// polygon, ground reaction forces and hand loads. World frame: z up, metres.
 import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 import { toColor } from './colors.js';
+import { ARROW_SHAPES, ForceArrows, makeArrowMaterials } from './force_arrows.js';
 import { request } from './server_api.js';
 import { SkinnedBody } from './skin.js';
 import { readSkin } from './skin_buffer.js';
@@ -20,7 +21,7 @@ const unitSphere = new THREE.SphereGeometry(1, 32, 20);
 const unitBox = new THREE.BoxGeometry(1, 1, 1);
 const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2);
 /** @type {Set<THREE.BufferGeometry>} */
-const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
+const SHARED = new Set([unitSphere, unitBox, unitCylinder, ...ARROW_SHAPES]);
 
 /** @typedef {import('./messages.js').Visual} Visual
  *  @typedef {import('./messages.js').Palette} Palette */
@@ -73,6 +74,7 @@ export function makeMarkerMaterials(palette) {
     rim: nearer(new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }), SPHERE_DEPTH - 0.01),
     com: makeMarkerMaterial(toColor(palette.com)),
     cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
+    force: makeArrowMaterials(toColor(palette.cop)),
     line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
     support: new THREE.LineBasicMaterial({ color: toColor(palette.support) }),
     held: new THREE.MeshStandardMaterial({ color: toColor(palette.held), roughness: 0.6 }),
@@ -121,7 +123,8 @@ export class Human {
     this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), markers.com.solid);
     this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), markers.cop);
     this.support = new THREE.LineLoop(new THREE.BufferGeometry(), markers.support);
-    this.group.add(this.com, this.comLine, this.comRing, this.cop, this.support);
+    this.forces = new ForceArrows(markers.force);
+    this.group.add(this.com, this.comLine, this.comRing, this.cop, this.support, this.forces.group);
   }
 
   /** @param {import('./state_codec.js').Person} person
@@ -139,6 +142,7 @@ export class Human {
     this.#updateSpheres(person, isLive);
     this.#updatePoints(person, isLive, floor);
     this.#updateSupport(person, isLive, floor);
+    this.forces.update(isLive ? person.feet : []);
     this.#updateHeld(person);
   }
 

@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 5;
+export const VERSION = 6;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
@@ -20,13 +20,14 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *    ratio: number, moment: number, capacity: number}} Load  ratio: NaN if unknown; moment, capacity: N·m
  *  @typedef {{kind: (typeof SOLID_KIND)[number], position: number[], quaternion: number[], size: number[]}} Solid
  *    size: edges, or radius, radius, length along z
+ *  @typedef {{cop: number[], force: number[]}} GroundForce  m; N, on the foot
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
  *    comSource: 'mvn'|'body_model', massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
  *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number], viewHeight: number,
- *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
+ *    links: Pose[], loads: Load[], support: number[][], feet: GroundForce[], held: Solid[]}} Person
  *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left; viewHeight: that a view shows
- *    so that the person fills most of it, m
+ *    so that the person fills most of it, m; feet: those with a force that is shown
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
@@ -187,6 +188,7 @@ function readPerson(bytes) {
     links: bytes.list(linkCount, readPose),
     loads: bytes.list(loadCount, readLoad),
     support: bytes.list(cornerCount, () => bytes.floats(2)),
+    feet: bytes.list(2, readFoot).filter(({ force }) => !Number.isNaN(force[0])),
     held: bytes.list(solidCount, readSolid),
   };
 }
@@ -222,6 +224,10 @@ const traitsOf = (flags) => ({
   leans: (flags & 64) !== 0,
   comDisagrees: (flags & 128) !== 0,
 });
+
+/** @param {Bytes} bytes
+ *  @returns {GroundForce} */
+const readFoot = (bytes) => ({ cop: bytes.floats(3), force: bytes.floats(3) });
 
 /** @param {Bytes} bytes
  *  @returns {TrackedObject} */

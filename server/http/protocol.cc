@@ -104,6 +104,14 @@ void PutObject(Writer& out, const TrackedObject& object) {
   PutPose(out, object.pose);
 }
 
+// A force that is unknown, or too small to be shown, is NaN.
+void PutFoot(Writer& out, const FootForce& foot) {
+  const bool is_shown = foot.force.norm() > kMinForceShown && foot.cop.allFinite();
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  out.PutVector(is_shown ? foot.cop : none);
+  out.PutVector(is_shown ? foot.force : none);
+}
+
 void PutPerson(Writer& out, const PersonState& person, double view_height) {
   KINESCOPE_CHECK(person.model != nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -138,6 +146,7 @@ void PutPerson(Writer& out, const PersonState& person, double view_height) {
     out.PutFloat(forces.support.corners[i].x());
     out.PutFloat(forces.support.corners[i].y());
   }
+  for (const FootForce& foot : forces.feet) PutFoot(out, foot);
   for (std::size_t i = 0; i < held.count; ++i) {
     out.Put(static_cast<std::uint32_t>(held.solids[i].kind));
     PutPose(out, held.solids[i].pose);

@@ -23,9 +23,9 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 5;
+inline constexpr std::uint8_t kProtocolVersion = 6;
 
-/// "kinescope.v5": the name of this version among the subprotocols of a WebSocket.
+/// "kinescope.v6": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();
 
 /// Whether a client that offers these subprotocols (a list, separated by commas) can read the
@@ -37,6 +37,7 @@ inline constexpr std::size_t kPersonHeaderBytes = 64;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;
 inline constexpr std::size_t kCornerBytes = 8;
+inline constexpr std::size_t kFootBytes = 24;
 inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;

@@ -141,6 +141,16 @@ for (const people of [1, 2, 4, 6]) {
   });
 }
 
+test('a long name of a source is cut on a desk, and covers no button', async () => {
+  const { page, close } = await open('', 1, { viewport: DESKTOP });
+  const [source, tools] = await page.evaluate((text) => {
+    document.getElementById('source').textContent = text;
+    return ['source', 'tools'].map((id) => document.getElementById(id).getBoundingClientRect().toJSON());
+  }, `/srv/recordings/${'a_long_folder/'.repeat(12)}trial_07.mvnx`);
+  assert.ok(source.right <= tools.left, `the source ends at ${source.right} px, the buttons begin at ${tools.left} px`);
+  await close();
+});
+
 test('the wall says in large words that the stream has stopped', async () => {
   const { page, close } = await open('?view=wall', 2, { viewport: WALL });
   site.say('stale');

@@ -1,26 +1,13 @@
 // The person on the page and in the server's pictures is the same surface: what the skin covers, pixel by pixel.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
-import { once } from 'node:events';
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { createInterface } from 'node:readline';
-import { after, before, test as nodeTest } from 'node:test';
-import { aim, groundOf } from '../../web/cameras.js';
-import { decodeState } from '../../web/state_codec.js';
-import { closeBrowser, DESKTOP, endWithTests, openPage, PHONE, pixelsOf, pixelsOfPng, saveScreenshot }
-  from './open_page.mjs';
+import { test as nodeTest } from 'node:test';
+import { DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { cameraOf, grown, LONG, MARKS, mask, onlyView, overlap, PLAIN, record, serve, serverPixels, settled, whatCovers }
+  from './same_pixels.mjs';
 
-const LONG = { timeout: 60000 };  // only a failure takes so long
+const REST = `${MARKS},shadows`;  // everything but the body
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
-const kinescope = process.env.KINESCOPE;
-let folder;
-before(async () => { folder = await mkdtemp(join(tmpdir(), 'kinescope-skin-')); });
-after(async () => {
-  await closeBrowser();
-  await rm(folder, { recursive: true });
-});
+const SKIN = { route: '**/api/v1/skin/**', address: 'api/v1/skin' };
 
 /** Half a turn about the world's z axis: quaternions (w, x, y, z) and points in the text of a frame. */
 function turnedAround(frame) {
@@ -34,133 +21,6 @@ function turnedAround(frame) {
     turned('centerOfMass', 3, ofPoints)].reduce((text, turn) => turn(text), frame);
 }
 
-/** A recording of nothing but the posture of `motion` after `seconds`. */
-async function record(motion, seconds, person, change = (frame) => frame) {
-  const file = join(folder, `${motion}${change.name}.mvnx`);
-  execFileSync(kinescope, ['convert', `demo:${motion}`, '--seconds', `${seconds}`, '--rate_hz', '60', ...person, '--out', file],
-    { stdio: 'ignore' });
-  const xml = await readFile(file, 'utf8');
-  const frames = [...xml.matchAll(/<frame [^>]*type="normal"[^]*?<\/frame>/g)];
-  const last = change(frames.at(-1)[0].replace(/^<frame [^>]*>/, ''));
-  await writeFile(file, xml.replace(/(<frame [^>]*type="normal"[^>]*>)[^]*?<\/frame>/g, `$1${last}`));
-  return file;
-}
-
-/** Serves it; the page then shows its last sample. */
-async function serve(file, options) {
-  const args = ['serve', '--source', file, '--ros', 'off', '--http_port', '0', ...options];
-  const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
-  endWithTests(child);
-  const lines = createInterface({ input: child.stderr });
-  let url = null;
-  for await (const line of lines) {
-    url = /page at (\S+)/.exec(line)?.[1];
-    if (url) break;
-  }
-  child.stderr.resume();
-  assert.ok(url, 'the server ended before it served');
-  return {
-    url,
-    async stop() {
-      child.kill('SIGTERM');
-      if (child.exitCode === null) await once(child, 'exit');
-    },
-  };
-}
-
-/** Pixels that differ visibly. */
-function mask(one, other) {
-  assert.deepEqual([one.width, one.height], [other.width, other.height]);
-  const covered = new Uint8Array(one.width * one.height);
-  for (let i = 0; i < covered.length; ++i) {
-    const difference = [0, 1, 2].map((k) => Math.abs(one.data[4 * i + k] - other.data[4 * i + k]));
-    covered[i] = Math.max(...difference) > 12 ? 1 : 0;
-  }
-  return covered;
-}
-
-/** Covered by both, as a share of what is covered by either; without the pixels of `leftOut`. */
-function overlap(one, other, leftOut) {
-  let both = 0, either = 0;
-  one.forEach((covered, i) => {
-    if (leftOut[i]) return;
-    both += covered & other[i];
-    either += covered | other[i];
-  });
-  return { share: both / either, either };
-}
-
-/** The page's camera, by its own functions from what the server sends: as options of `render`. */
-async function cameraOf(page, name, { width, height }) {
-  const bytes = await page.evaluate(() => new Promise((resolve) => {
-    const socket = new WebSocket(new URL('api/v1/ws', location.href.replace(/^http/, 'ws')));
-    socket.binaryType = 'arraybuffer';
-    socket.onmessage = ({ data }) => {
-      if (typeof data === 'string') return;
-      resolve([...new Uint8Array(data)]);
-      socket.close();
-    };
-  }));
-  const { people, floor, viewHeading: heading, viewBelow: below } = decodeState(Uint8Array.from(bytes).buffer);
-  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/v1/cameras')).json());
-  const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
-    height: people[0].viewHeight, below, heading };
-  const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
-  return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
-}
-
-/** What the server draws of the same sample from the same camera. */
-async function serverPixels(page, file, camera, { width, height }, options) {
-  const out = join(folder, 'server.png');
-  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
-    { stdio: 'ignore' });
-  return pixelsOfPng(page, await readFile(out));
-}
-
-// Everything but the body.
-const MARKS = 'loads,com,cop,support,forces,hand_loads', REST = `${MARKS},shadows`;
-const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
-
-/** Until two pictures of the view in a row are equal: the camera has arrived and the skin is there. */
-async function settled(page) {
-  const view = () => pixelsOf(page, '#view');
-  let last = await view();
-  for (;;) {
-    const next = await view();
-    if (next.data.equals(last.data)) return next;
-    last = next;
-  }
-}
-
-/** The view is large enough that the rim of a body, which is of half pixels, is a small part of it. */
-const TALL = { width: 1440, height: 1060 };
-
-/** The named view on the page, and which of its pixels are skin. */
-async function lookAt(site, camera) {
-  const open = async (hasSkin) => {
-    const visit = await openPage(site.url, {
-      colorScheme: 'dark', viewport: TALL,
-      beforeLoad: async (page) => {
-        if (!hasSkin) await page.route('**/api/v1/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
-      },
-    });
-    const { page } = visit;
-    await page.waitForFunction(() => document.getElementById('status-note').textContent === 'ended', null, LONG);
-    await page.locator(`#cameras button[data-camera="${camera}"]`).click();
-    await page.evaluate(() => {
-      for (const over of document.querySelectorAll('.stage > :not(.view), .banner')) over.style.visibility = 'hidden';
-    });
-    return visit;
-  };
-  const visit = await open(true);
-  const bare = await open(false);
-  await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
-    /api\/v1\/skin/.test(name) && responseEnd > 0), null, LONG);
-  const [shown, empty] = [await settled(visit.page), await settled(bare.page)];
-  await bare.close();
-  return { page: visit.page, skin: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
-}
-
 for (const { motion, seconds, camera, person } of [
   { motion: 'squat', seconds: 1.2, camera: 'left', person: [] },
   { motion: 'lift', seconds: 1, camera: 'three_quarter', person: ['--sex', 'female', '--mass', '60', '--height', '1.64'] },
@@ -170,7 +30,7 @@ for (const { motion, seconds, camera, person } of [
   test(`the skin of ${motion} covers the same pixels on the page and in the server's picture`, async () => {
     const file = await record(motion, seconds, person);
     const site = await serve(file, [...person, '--pictures', 'off']);
-    const { page, skin: onPage, size, close } = await lookAt(site, camera);
+    const { page, covered: onPage, size, close } = await whatCovers(site, camera, SKIN);
     const sameCamera = await cameraOf(page, camera, size);
     const drawn = [];
     for (const hidden of [REST, `${REST},body`, REST.replace('loads,', '')]) {
@@ -185,12 +45,6 @@ for (const { motion, seconds, camera, person } of [
     await close();
     await site.stop();
   });
-}
-
-/** With the pixels beside them, two in each direction: the rims of spheres differ by that much on the page. */
-function grown(covered, { width }) {
-  const by = [-2, -1, 0, 1, 2].flatMap((dy) => [-2, -1, 0, 1, 2].map((dx) => dy * width + dx));
-  return covered.map((_, i) => (by.some((step) => covered[i + step]) ? 1 : 0));
 }
 
 /** Pixels outside of the rectangle around what is covered, and a little more. */
@@ -211,14 +65,14 @@ function outsideOf(covered, { width, height }) {
 test('a person who faces -x is shown from the front, on the page and in a snapshot', async () => {
   const motion = 'walk', camera = 'front', nothing = new Uint8Array(1 << 24);
   const straight = await serve(await record(motion, 0.9, []), ['--pictures', 'off']);
-  const expected = await lookAt(straight, camera);
+  const expected = await whatCovers(straight, camera, SKIN);
   await expected.close();
   await straight.stop();
   const file = await record(motion, 0.9, [], turnedAround);
   const site = await serve(file, ['--pictures', 'off']);
-  const { page, skin: onPage, size, close } = await lookAt(site, camera);
+  const { page, covered: onPage, size, close } = await whatCovers(site, camera, SKIN);
   await saveScreenshot(page, 'skin_turned');
-  const same = overlap(onPage, expected.skin, nothing);
+  const same = overlap(onPage, expected.covered, nothing);
   assert.ok(same.either > 0.02 * onPage.length, `${same.either} pixels`);
   assert.ok(same.share >= 0.95, `${same.share.toFixed(4)} of the pixels on the page are those of a person who faces x`);
   const live = await serve(file, ['--loop', '--picture_size', '64x64']);  // a stale picture has a banner
@@ -261,10 +115,7 @@ test('loads lie on the same pixels of the skin on the page and in the picture of
   await choice.waitFor(LONG);
   assert.equal(await choice.inputValue(), 'skin', 'as the server was started');
   await page.locator('#cameras button[data-camera="right"]').click();
-  const onlyView = (isOnly) => page.evaluate((hidden) => {
-    for (const over of document.querySelectorAll('.stage > :not(.view), .banner')) over.style.visibility = hidden ? 'hidden' : '';
-  }, isOnly);
-  await onlyView(true);
+  await onlyView(page, true);
   const shown = await settled(page);
   const size = { width: shown.width, height: shown.height };
   await saveScreenshot(page, 'skin_loads');
@@ -281,11 +132,11 @@ test('loads lie on the same pixels of the skin on the page and in the picture of
   const { share, either } = overlap(colourful(shown), colourful(drawn), isMark(shown));
   assert.ok(either > 0.002 * shown.width * shown.height, `${either} pixels`);
   assert.ok(share >= 0.85, `${share.toFixed(4)} of the colourful pixels are so in both`);
-  await onlyView(false);
+  await onlyView(page, false);
   await choice.focus();
   await page.keyboard.press('ArrowUp');
   assert.equal(await choice.inputValue(), 'spheres', 'by the keyboard');
-  await onlyView(true);
+  await onlyView(page, true);
   const spheres = await settled(page);
   assert.ok(overlap(colourful(spheres), colourful(drawn), isMark(spheres)).share < 0.6);
   await saveScreenshot(page, 'skin_spheres');

@@ -13,7 +13,7 @@ const palette = {
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
 const modelOf = (character, revision = 1) => ({ character, revision, skin: null, links: [{ visuals: [box] }] });
 const personOf = (character) => ({ character, links: [{ position: [0, 0, 1], quaternion: [0, 0, 0, 1] }],
-  loads: [], support: [], held: [], com: null, cop: null });
+  loads: [], support: [], feet: [], held: [], com: null, cop: null });
 const stateOf = (seconds, ...characters) =>
   ({ sentMicros: 1e6 * seconds, floor: 0, people: characters.map(personOf) });
 

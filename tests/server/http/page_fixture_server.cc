@@ -242,7 +242,11 @@ json Describe() {
                        {"moment", is_known ? json(load.deciding_moment) : json(nullptr)},
                        {"capacity", load.capacity}});
     }
-    json support = json::array(), held = json::array();
+    json support = json::array(), held = json::array(), feet = json::array();
+    for (const FootForce& foot : person.forces.feet) {
+      if (foot.force.norm() <= kMinForceShown) continue;
+      feet.push_back({{"cop", Numbers(foot.cop)}, {"force", Numbers(foot.force)}});
+    }
     for (std::size_t i = 0; i < person.forces.support.size; ++i) {
       const Eigen::Vector2d& corner = person.forces.support.corners[i];
       support.push_back({corner.x(), corner.y()});
@@ -274,6 +278,7 @@ json Describe() {
          {"metric", "total"},
          {"viewHeight", std::round(1000 * RoomFor(person, state.floor_z).height) / 1000},
          {"support", support},
+         {"feet", feet},
          {"held", held},
          {"links", links},
          {"loads", loads}});

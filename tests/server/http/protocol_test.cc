@@ -91,6 +91,15 @@ void ExpectPerson(Reader& in, const PersonState& person, double floor_z) {
     const float x = in.Get<float>(), y = in.Get<float>();
     EXPECT_LT((Eigen::Vector2d(x, y) - support.corners[i]).norm(), 1e-6);
   }
+  for (const FootForce& foot : person.forces.feet) {
+    const Eigen::Vector3d cop = in.GetVector(), force = in.GetVector();
+    if (foot.force.norm() > kMinForceShown) {
+      EXPECT_LT((cop - foot.cop).norm(), 1e-6);
+      EXPECT_LT((force - foot.force).norm(), 1e-3);
+    } else {
+      EXPECT_TRUE(cop.array().isNaN().all() && force.array().isNaN().all());
+    }
+  }
   for (std::size_t i = 0; i < held.count; ++i) {
     EXPECT_EQ(in.Get<std::uint32_t>(), static_cast<std::uint32_t>(held.solids[i].kind));
     EXPECT_LT((in.GetVector() - held.solids[i].pose.position).norm(), 1e-6);
@@ -305,6 +314,7 @@ TEST(ProtocolManual, StatesTheSizesAndTheVersion) {
   expect("load, " + std::to_string(kLoadBytes) + " bytes");
   expect("object, " + std::to_string(kObjectBytes) + " bytes");
   expect("corner, " + std::to_string(kCornerBytes) + " bytes");
+  expect("foot, " + std::to_string(kFootBytes) + " bytes");
   expect("solid, " + std::to_string(kSolidBytes) + " bytes");
   expect("former states header, " + std::to_string(kPastHeaderBytes) + " bytes");
   expect("former state, " + std::to_string(kPastStateBytes) + " bytes");

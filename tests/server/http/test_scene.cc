@@ -106,6 +106,9 @@ void AddForces(PersonState& person) {
   forces.support.corners[3] = {middle.x() - 0.1, middle.y() + 0.15};
   forces.margin_of_stability = 0.083;
   forces.lumbar = LumbarLoad{2150, 310};
+  FootForce& foot = forces.feet[urdf::kRight];  // the left one is in the air
+  foot.force = {12, -5, 730};
+  foot.cop = {middle.x(), middle.y() - 0.1, 0};
   forces.stated_hand_load.is_known = true;
   forces.stated_hand_load.alone_kg[urdf::kRight] = 5;
   const urdf::Pose& hand = person.links[urdf::kRightHand];

@@ -1,0 +1,159 @@
+// What the page and the pictures of the server show of the same sample from the same camera, pixel by pixel.
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { after, before } from 'node:test';
+import { aim, groundOf } from '../../web/cameras.js';
+import { decodeState } from '../../web/state_codec.js';
+import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng } from './open_page.mjs';
+
+export const LONG = { timeout: 60000 };  // only a failure takes so long
+const kinescope = process.env.KINESCOPE;
+let folder;
+before(async () => { folder = await mkdtemp(join(tmpdir(), 'kinescope-pixels-')); });
+after(async () => {
+  await closeBrowser();
+  await rm(folder, { recursive: true });
+});
+
+/** A recording of nothing but the posture of `motion` after `seconds`. */
+export async function record(motion, seconds, person, change = (frame) => frame) {
+  const file = join(folder, `${motion}${change.name}.mvnx`);
+  execFileSync(kinescope, ['convert', `demo:${motion}`, '--seconds', `${seconds}`, '--rate_hz', '60', ...person, '--out', file],
+    { stdio: 'ignore' });
+  const xml = await readFile(file, 'utf8');
+  const frames = [...xml.matchAll(/<frame [^>]*type="normal"[^]*?<\/frame>/g)];
+  const last = change(frames.at(-1)[0].replace(/^<frame [^>]*>/, ''));
+  await writeFile(file, xml.replace(/(<frame [^>]*type="normal"[^>]*>)[^]*?<\/frame>/g, `$1${last}`));
+  return file;
+}
+
+/** Serves it; the page then shows its last sample. */
+export async function serve(file, options) {
+  const args = ['serve', '--source', file, '--ros', 'off', '--http_port', '0', ...options];
+  const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
+  endWithTests(child);
+  const lines = createInterface({ input: child.stderr });
+  let url = null;
+  for await (const line of lines) {
+    url = /page at (\S+)/.exec(line)?.[1];
+    if (url) break;
+  }
+  child.stderr.resume();
+  assert.ok(url, 'the server ended before it served');
+  return {
+    url,
+    async stop() {
+      child.kill('SIGTERM');
+      if (child.exitCode === null) await once(child, 'exit');
+    },
+  };
+}
+
+/** Pixels that differ visibly. */
+export function mask(one, other) {
+  assert.deepEqual([one.width, one.height], [other.width, other.height]);
+  const covered = new Uint8Array(one.width * one.height);
+  for (let i = 0; i < covered.length; ++i) {
+    const difference = [0, 1, 2].map((k) => Math.abs(one.data[4 * i + k] - other.data[4 * i + k]));
+    covered[i] = Math.max(...difference) > 12 ? 1 : 0;
+  }
+  return covered;
+}
+
+/** Covered by both, as a share of what is covered by either; without the pixels of `leftOut`. */
+export function overlap(one, other, leftOut) {
+  let both = 0, either = 0;
+  one.forEach((covered, i) => {
+    if (leftOut[i]) return;
+    both += covered & other[i];
+    either += covered | other[i];
+  });
+  return { share: both / either, either };
+}
+
+/** The page's camera, by its own functions from what the server sends: as options of `render`. */
+export async function cameraOf(page, name, { width, height }) {
+  const bytes = await page.evaluate(() => new Promise((resolve) => {
+    const socket = new WebSocket(new URL('api/v1/ws', location.href.replace(/^http/, 'ws')));
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = ({ data }) => {
+      if (typeof data === 'string') return;
+      resolve([...new Uint8Array(data)]);
+      socket.close();
+    };
+  }));
+  const { people, floor, viewHeading: heading, viewBelow: below } = decodeState(Uint8Array.from(bytes).buffer);
+  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/v1/cameras')).json());
+  const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
+    height: people[0].viewHeight, below, heading };
+  const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
+  return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
+}
+
+/** What the server draws of the same sample from the same camera. */
+export async function serverPixels(page, file, camera, { width, height }, options) {
+  const out = join(folder, 'server.png');
+  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
+    { stdio: 'ignore' });
+  return pixelsOfPng(page, await readFile(out));
+}
+
+export const MARKS = 'loads,com,cop,support,forces,hand_loads';
+export const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
+
+/** Until two pictures of the view in a row are equal: the camera has arrived and the skin is there. */
+export async function settled(page) {
+  const view = () => pixelsOf(page, '#view');
+  let last = await view();
+  for (;;) {
+    const next = await view();
+    if (next.data.equals(last.data)) return next;
+    last = next;
+  }
+}
+
+/** With the pixels beside them, two in each direction: the rims of spheres differ by that much on the page. */
+export function grown(covered, { width }) {
+  const by = [-2, -1, 0, 1, 2].flatMap((dy) => [-2, -1, 0, 1, 2].map((dx) => dy * width + dx));
+  return covered.map((_, i) => (by.some((step) => covered[i + step]) ? 1 : 0));
+}
+
+/** The view is large enough that the rim of a body, which is of half pixels, is a small part of it. */
+const TALL = { width: 1440, height: 1060 };
+
+/** Hides what the page has over the view, or shows it again. */
+export const onlyView = (page, isOnly) => page.evaluate((hidden) => {
+  for (const over of document.querySelectorAll('.stage > :not(.view), .banner')) over.style.visibility = hidden ? 'hidden' : '';
+}, isOnly);
+
+/** The named view on the page, and which of its pixels differ from those of a page that cannot load `part`: the routes
+ *  that are blocked then, and a piece of the address of what is loaded last. `status`: what the page says when it shows
+ *  the moment that is compared. */
+export async function whatCovers({ url }, camera, part, status = { 'status-note': 'ended' }) {
+  const open = async (hasPart) => {
+    const visit = await openPage(url, {
+      colorScheme: 'dark', viewport: TALL,
+      beforeLoad: async (page) => {
+        if (!hasPart) await page.route(part.route, (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
+      },
+    });
+    const { page } = visit;
+    await page.waitForFunction((wanted) => Object.entries(wanted).every(([id, text]) =>
+      document.getElementById(id).textContent.startsWith(text)), status, LONG);
+    await page.locator(`#cameras button[data-camera="${camera}"]`).click();
+    await onlyView(page, true);
+    return visit;
+  };
+  const visit = await open(true);
+  const bare = await open(false);
+  await visit.page.waitForFunction((address) => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
+    name.includes(address) && responseEnd > 0), part.address, LONG);
+  const [shown, empty] = [await settled(visit.page), await settled(bare.page)];
+  await bare.close();
+  return { page: visit.page, covered: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
+}
