@@ -89,6 +89,7 @@ const connection = new KinescopeClient({  // without onState: of the states betw
   onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
+    shown.onConnected();
     picture.ask();
     controls.forget();
     loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));

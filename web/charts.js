@@ -53,8 +53,8 @@ export class Charts {
   update(now) {
     const kept = this.shown.kept(), model = this.page.model(), live = this.shown.newest, { time } = this.shown;
     if (kept === null || live === null || document.hidden) return;
-    if (kept.newest !== this.#newest) this.#clock.add(kept.newest, Date.now());
-    this.#newest = kept.newest;
+    if (live.madeMicros !== this.#newest) this.#clock.add(live.madeMicros / 1000, Date.now());
+    this.#newest = live.madeMicros;
     this.#meet(live);
     const when = {
       oldest: 1000 * kept.oldest, newest: 1000 * kept.newest, moment: 1000 * time.momentAt(now, kept),

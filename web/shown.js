@@ -1,12 +1,17 @@
 // What a viewer sees: the newest state, or a former one that the server has kept, each with the texts of its moment.
 import { showInAddress } from './address.js';
+import { HeldRun } from './held_run.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
+import { messageOf } from './server_api.js';
 import { ViewerTime } from './viewer_time.js';
 
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
+/** Between two of the newest states that a viewer who looks back is sent; with some delay. */
+const FEW_STATES_MILLIS = 300;
 
 /** @typedef {import('./state_codec.js').State} State
+ *  @typedef {import('./state_codec.js').FormerState} FormerState
  *  @typedef {import('./messages.js').Details} Details
  *  @typedef {import('./viewer_time.js').Kept} Kept
  *  @typedef {{send: (command: object) => void, notice: (text: string) => void, changed: () => void,
@@ -24,7 +29,11 @@ export class Shown {
     source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
     marks_revision: null, surroundings: null, class_limits: [0.3, 0.6],
   };
+  #newestAt = 0;  // browser's clock, ms
   /** @type {{state: State, details: Details}|null} */ #past = null;
+  /** @type {{text: string, details: Details}|null} */ #pastDetails = null;  // as they were last read
+  #run = new HeldRun();  // while it plays
+  #wantsFew = false;     // as the server was told
   #askedMicros = NaN;  // of the moment last asked for
   /** @type {{by: number, from: State}|null} */ #step = null;  // under way
   #addressAt = 0;
@@ -43,6 +52,7 @@ export class Shown {
   /** @param {State} state  the newest one */
   setNewest(state) {
     this.#newest = state;
+    this.#newestAt = performance.now();
     if (this.#linkedMicros !== null) this.#goToLinkedMoment(this.#linkedMicros);
   }
 
@@ -70,7 +80,32 @@ export class Shown {
   kept() {
     const newest = this.#newest, ended = this.#newestDetails.recording?.ended_micros ?? null;
     if (newest === null || newest.oldestMicros === 0) return null;
-    return { oldest: newest.oldestMicros / 1000, newest: (ended ?? newest.madeMicros) / 1000, hasEnded: ended !== null };
+    const oldest = newest.oldestMicros / 1000;
+    if (ended !== null) return { oldest, newest: ended / 1000, hasEnded: true };
+    return { oldest, newest: newest.madeMicros / 1000 + this.#sinceNewest(newest), hasEnded: false };
+  }
+
+  /** Of a viewer who is sent few of the newest states: how long the stream has gone on since the last one, ms.
+   *  @param {State} newest */
+  #sinceNewest(newest) {
+    if (!this.#wantsFew || newest.liveness !== 'live') return 0;
+    return Math.max(0, Math.min(FEW_STATES_MILLIS, performance.now() - this.#newestAt));
+  }
+
+  /** Call it after each connection to the server, which may be another one. */
+  onConnected() {
+    this.#lookBack.onConnected();
+    this.#run = new HeldRun();
+    this.#askedMicros = NaN;
+    this.#wantsFew = false;
+    this.#tellWhetherFew();
+  }
+
+  /** The header of the page needs the newest state a few times a second, the scene of a live viewer each one. */
+  #tellWhetherFew() {
+    if (this.#wantsFew === !this.time.isLive) return;
+    this.#wantsFew = !this.time.isLive;
+    this.#page.send({ few_states: this.#wantsFew });
   }
 
   /** @param {number} millis  a moment of the server's clock */
@@ -94,6 +129,7 @@ export class Shown {
   onTimeChanged() {
     const range = this.kept();
     if (range?.hasEnded) this.time.momentAt(performance.now(), range);  // which is not live
+    this.#tellWhetherFew();
     if (this.time.isLive) {
       if (this.#past === null) return;
       showInAddress({ micros: null });
@@ -107,17 +143,34 @@ export class Shown {
     this.#page.changed();
   }
 
-  /** Asks the server for the state of the viewer's moment; call it for every drawing.
+  /** Shows the state of the viewer's moment, or asks the server for it; call it for every drawing.
    *  @param {number} now */
   ask(now) {
     const range = this.kept();
     if (range === null || (this.time.isLive && !range.hasEnded)) return;
-    const wasLive = this.time.isLive;
     const micros = microsOf(this.time.momentAt(now, range));
-    if (this.time.isLive !== wasLive) this.onTimeChanged();  // it has caught up, or the recording has ended
-    if (this.time.isLive || micros === this.#askedMicros) return;
+    if (this.time.isLive !== this.isNewest) this.onTimeChanged();  // it has caught up, or the recording has ended
+    if (this.time.isLive) return;
+    if (this.time.isPlaying) return this.#play(micros, now);
+    if (micros === this.#askedMicros) return;
     this.#askedMicros = micros;
     this.#lookBack.ask({ micros }, now);
+  }
+
+  /** @param {number} micros
+   *  @param {number} now */
+  #play(micros, now) {
+    const { speed } = this.time;
+    const former = this.#run.at(micros, speed);
+    try {
+      if (former !== null) this.#show(former);
+    } catch (error) {  // it is not as described
+      this.#page.notice(messageOf(error));
+    }
+    const wanted = this.#run.next(micros, speed);
+    if (wanted === null) return;
+    if ('until_micros' in wanted) this.#lookBack.askRun(wanted, now);
+    else this.#lookBack.ask(wanted, now);
   }
 
   /** @param {1|-1} by  sample */
@@ -138,19 +191,39 @@ export class Shown {
 
   /** @param {ReturnType<typeof import('./state_codec.js').decodePast>} answer  of the server */
   onPast(answer) {
-    const now = performance.now();
-    if (!this.#lookBack.onAnswer(answer.id, now) || this.#past === null) return;
-    if (this.#isStillThere(answer.state)) return this.#askNextTo(answer.state, now);
-    const message = readTextMessage(answer.details);
-    const details = message && 'details' in message ? message.details : this.#newestDetails;
-    this.#past = { state: answer.state, details };
-    const range = this.kept();
-    if (!this.time.isPlaying && range) {
-      // To the sample itself, so that a step leads to another one.
-      if (!this.time.isGone(now, range)) this.time.pause(now, range, answer.state.madeMicros / 1000);
-      this.#askedMicros = microsOf(answer.state.madeMicros / 1000);
+    const now = performance.now(), answered = this.#lookBack.onAnswer(answer.id, now), range = this.kept();
+    if (answered === null || this.#past === null || range === null) return;
+    const { formers } = answer, last = formers[formers.length - 1];
+    if (this.time.isPlaying) {  // the next drawing shows it
+      const { wanted } = answered;
+      this.#step = null;
+      if ('until_micros' in wanted) this.#run.setPace(answered.tookMillis - answered.leastMillis);
+      return this.#run.add(formers, 'micros' in wanted ? wanted.micros : last.madeMicros, answer.untilMicros);
     }
+    if ('until_micros' in answered.wanted) return;  // it was paused meanwhile
+    if (this.#isStillThere(last.state)) return this.#askNextTo(last.state, now);
+    // To the sample itself, so that a step leads to another one.
+    if (!this.time.isGone(now, range)) this.time.pause(now, range, last.madeMicros / 1000);
+    this.#askedMicros = microsOf(last.madeMicros / 1000);
+    this.#show(last);
+  }
+
+  /** @param {FormerState} former */
+  #show(former) {
+    if (former.state === this.#past?.state) return;
+    this.#past = { state: former.state, details: this.#read(former.details) };
     this.#page.arrived();
+  }
+
+  /** @param {string} text  a message with details; many states have the same
+   *  @returns {Details} */
+  #read(text) {
+    if (this.#pastDetails?.text !== text) {
+      const message = readTextMessage(text);
+      if (message === null || !('details' in message)) return this.#newestDetails;
+      this.#pastDetails = { text, details: message.details };
+    }
+    return this.#pastDetails.details;
   }
 
   /** Whether the state has the sample that the step began at: a sample may have several states, such as one more when

@@ -1,10 +1,12 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 5;
+export const VERSION = 6;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
+
+const STATE_HEADER_BYTES = 96;
 
 // Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
@@ -113,21 +115,48 @@ export function decodePicture(buffer) {
   return { stateNumber: bytes.f64(), arrivalMicros: bytes.f64(), jpeg: new Uint8Array(buffer, bytes.skip(0)) };
 }
 
-/** The answer to a request for a former state.
+/** A former state. It is decoded when it is first wanted: of a run of many, a few ms each would delay a drawing. */
+export class FormerState {
+  #buffer;
+  /** @type {State|null} */ #state = null;
+
+  /** @param {ArrayBuffer} buffer  a message with a state
+   *  @param {string} details  a text message */
+  constructor(buffer, details) {
+    if (buffer.byteLength < STATE_HEADER_BYTES) throw new Error('message from the server is truncated');
+    const view = new DataView(buffer);
+    this.#buffer = buffer;
+    this.details = details;
+    this.stateNumber = view.getFloat64(8, true);
+    this.madeMicros = view.getFloat64(72, true);
+  }
+
+  /** @throws {Error} if it is not as described */
+  get state() {
+    this.#state ??= decodeState(this.#buffer);
+    return this.#state;
+  }
+}
+
+/** The answer to a request for former states.
  *  @param {ArrayBuffer} buffer
- *  @returns {{id: number, state: State, details: string}}  details: a text message */
+ *  @returns {{id: number, untilMicros: number, formers: FormerState[]}}  untilMicros: up to when there are no other states;
+ *    formers: oldest first */
 export function decodePast(buffer) {
   const bytes = new Bytes(buffer);
-  bytes.skip(4);
-  const id = bytes.u32();
-  const stateBytes = bytes.u32(), detailsBytes = bytes.u32();
-  const state = bytes.skip(stateBytes), details = bytes.skip(detailsBytes);
+  bytes.skip(2);
+  const count = bytes.u16(), id = bytes.u32(), untilMicros = bytes.f64();
+  let details = '';
+  const formers = bytes.list(count, () => {
+    const stateBytes = bytes.u32(), detailsBytes = bytes.u32();
+    const stateAt = bytes.skip(stateBytes), detailsAt = bytes.skip(detailsBytes);
+    // Without details, those of the state before.
+    if (detailsBytes > 0) details = new TextDecoder().decode(new Uint8Array(buffer, detailsAt, detailsBytes));
+    return new FormerState(buffer.slice(stateAt, stateAt + stateBytes), details);
+  });
   bytes.end();
-  return {
-    id,
-    state: decodeState(buffer.slice(state, state + stateBytes)),
-    details: new TextDecoder().decode(new Uint8Array(buffer, details, detailsBytes)),
-  };
+  if (count === 0) throw new Error('the server sent no former state; reload the page');
+  return { id, untilMicros, formers };
 }
 
 /** @param {Bytes} bytes */

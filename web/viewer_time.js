@@ -6,6 +6,9 @@ export const SPEEDS = /** @type {const} */ ([0.1, 0.25, 0.5, 1, 2, 4, 8]);
 const CAUGHT_UP_MILLIS = 50;
 /** More than the oldest moments are apart that a page hears of: who goes to the oldest one stays there. */
 const GONE_MILLIS = 1000;
+/** Less than samples are apart: the last sample of a recording and the end of its history may differ by rounding, and by the
+ *  time that its end took to be noticed. */
+const AT_END_MILLIS = 1;
 
 /** @typedef {{oldest: number, newest: number, hasEnded?: boolean}} Kept  moments that the server has; hasEnded: no newer
  *    ones will come, as after the end of a recording */
@@ -69,7 +72,7 @@ export class ViewerTime {
    *  @param {Kept} kept */
   play(now, kept) {
     if (this.#behind === null) return;
-    const moment = this.momentAt(now, kept), isAtEnd = kept.hasEnded && moment >= kept.newest;
+    const moment = this.momentAt(now, kept), isAtEnd = kept.hasEnded && moment > kept.newest - AT_END_MILLIS;
     this.#behind = { moment: isAtEnd ? kept.oldest : moment, since: now, isPlaying: true };
   }
 

@@ -175,6 +175,49 @@ std::shared_ptr<const SceneState> History::Numbered(std::uint64_t number) const 
   return Find<ByNumber>(number);
 }
 
+// The states made after `after_nanos`, up to `until_nanos`; chunks may have others, too.
+History::Part History::PartBetween(std::int64_t after_nanos, std::int64_t until_nanos) const {
+  Part part;
+  const std::lock_guard lock(mutex_);
+  auto chunk = std::lower_bound(
+      chunks_.begin(), chunks_.end(), after_nanos,
+      [](const auto& each, std::int64_t nanos) { return each->last_nanos() <= nanos; });
+  for (; chunk != chunks_.end() && (*chunk)->first_nanos() <= until_nanos; ++chunk) {
+    part.chunks.push_back(*chunk);
+  }
+  for (const auto& state : open_) {
+    if (state->made_nanos > until_nanos) break;
+    if (state->made_nanos > after_nanos) part.open.push_back(state);
+  }
+  part.newest_nanos = open_.empty() ? chunks_.back()->last_nanos() : open_.back()->made_nanos;
+  return part;
+}
+
+std::optional<std::int64_t> History::Visit(const Span& span, const Visitor& visit) const {
+  const auto first = At(span.from_nanos);
+  if (first == nullptr) return std::nullopt;
+  std::int64_t last = first->made_nanos;
+  if (!visit(*first)) return last;
+  const auto is_next = [&](std::int64_t nanos) {
+    return nanos > last && nanos - last >= span.every_nanos && nanos <= span.until_nanos;
+  };
+  const Part part = PartBetween(last, span.until_nanos);
+  for (const auto& chunk : part.chunks) {
+    const auto rows = Unpacked(chunk);
+    for (std::size_t row = 0; row < rows->count(); ++row) {
+      if (!is_next(rows->made_nanos(row))) continue;
+      last = rows->made_nanos(row);
+      if (!visit(*chunk->At(*rows, row))) return last;
+    }
+  }
+  for (const auto& state : part.open) {
+    if (!is_next(state->made_nanos)) continue;
+    last = state->made_nanos;
+    if (!visit(*state)) return last;
+  }
+  return std::max(last, std::min(span.until_nanos, part.newest_nanos));
+}
+
 void History::Settle() const {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return !is_working_ && !IsRunComplete(); });

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -24,6 +25,12 @@ struct HistoryLimits {
   std::int64_t nanos = 600'000'000'000;             // older states are forgotten
   std::size_t bytes = std::size_t{500} << 20;       // and the oldest of more than that
   std::size_t series_bytes = SeriesLimits().bytes;  // of the series, beside the states
+};
+
+/// States that are wanted: the newest one at `from_nanos`, as History::At(), and those after it up
+/// to `until_nanos`, each made at least `every_nanos` after the one before.
+struct Span {
+  std::int64_t from_nanos = 0, until_nanos = 0, every_nanos = 0;
 };
 
 /// The states that are kept: a first and a last one, by SceneState::made_nanos and number.
@@ -54,6 +61,13 @@ class History {
   /// The state of this number; the nearest kept one if it is gone, or not there yet.
   std::shared_ptr<const SceneState> Numbered(std::uint64_t number) const;
 
+  /// False: no more states are wanted.
+  using Visitor = std::function<bool(const SceneState& state)>;
+  /// Calls `visit` for the states of `span`, in order. Returns the moment up to which there are no
+  /// others in it: the end of the span, the newest kept state, or the last visited one if `visit`
+  /// has returned false. nullopt, and no call, before the first state.
+  std::optional<std::int64_t> Visit(const Span& span, const Visitor& visit) const;
+
   /// Of all states that were added, also of those that were left out.
   const Series& series() const { return series_; }
 
@@ -64,12 +78,20 @@ class History {
   using States = std::vector<std::shared_ptr<const SceneState>>;
   using Chunks = std::deque<std::shared_ptr<const Chunk>>;
 
+  // What is kept of some time, oldest first.
+  struct Part {
+    std::vector<std::shared_ptr<const Chunk>> chunks;
+    States open;
+    std::int64_t newest_nanos = 0;  // of all states
+  };
+
   void Work();
   void CountRun();
   bool IsRunComplete() const;
   void Forget();
   template <class Key>
   std::shared_ptr<const SceneState> Find(typename Key::Value wanted) const;
+  Part PartBetween(std::int64_t after_nanos, std::int64_t until_nanos) const;
   std::shared_ptr<const Chunk::Rows> Unpacked(const std::shared_ptr<const Chunk>& chunk) const;
 
   const HistoryLimits limits_;

@@ -335,7 +335,8 @@ json RecordingToJson(const Playback& playback) {
   const auto secs_or_null = [](const std::optional<std::int64_t>& nanos) {
     return nanos ? json(1e-9 * static_cast<double>(*nanos)) : json();
   };
-  const auto micros = [](std::int64_t nanos) { return 1e-3 * static_cast<double>(nanos); };
+  // As in the messages of the WebSocket, to the last bit.
+  const auto micros = [](std::int64_t nanos) { return static_cast<double>(nanos) / 1e3; };
   return {{"start_micros", micros(playback.start_nanos)},
           {"length_secs", secs_or_null(playback.length_nanos)},
           {"round_secs", secs_or_null(playback.round_nanos)},

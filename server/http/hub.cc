@@ -5,6 +5,7 @@
 
 #include "server/http/answer.h"
 #include "server/http/api.h"
+#include "server/http/look_back.h"
 
 namespace kinescope::http {
 namespace {
@@ -31,9 +32,9 @@ Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, Pict
       marks_(marks) {}
 
 int Hub::CountOf(const std::string& address) const {
-  return static_cast<int>(
-      std::count_if(clients_.begin(), clients_.end(),
-                    [&](const HubClient* client) { return client->address() == address; }));
+  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [&](const auto& each) {
+    return each.first->address() == address;
+  }));
 }
 
 bool Hub::HasPlaceFor(const std::string& address) const {
@@ -49,7 +50,7 @@ std::string Hub::WhyNoPlaceFor(const std::string& address) const {
 
 bool Hub::Join(HubClient& client) {
   if (!HasPlaceFor(client.address())) return false;
-  clients_.insert(&client);
+  clients_.try_emplace(&client);
   client_count_ = static_cast<int>(clients_.size());
   ++counters_.opened;
   client.Offer(Slot::kDetails, EncodeDetails());
@@ -76,7 +77,11 @@ Hub::Clock::duration Hub::SendState(Clock::time_point now) {
   state_sent_at_ = now;
   const SharedBytes message = EncodeNewestState();
   ++counters_.states_encoded;
-  for (HubClient* const client : clients_) client->Offer(Slot::kState, message);
+  const bool also_few = now - few_sent_at_ >= kFewInterval;
+  if (also_few) few_sent_at_ = now;
+  for (const auto& [client, seat] : clients_) {
+    if (also_few || !seat.few_states) client->Offer(Slot::kState, message);
+  }
   return Clock::duration::zero();
 }
 
@@ -85,7 +90,7 @@ void Hub::SendPicture() {
   if (viewers_ == 0 || picture == nullptr) return;
   picture_ = Share(EncodePicture(*picture));
   ++counters_.pictures_encoded;
-  for (HubClient* const client : clients_) {
+  for (const auto& [client, seat] : clients_) {
     if (client->wants_pictures()) client->Offer(Slot::kPicture, picture_);
   }
 }
@@ -96,7 +101,7 @@ void Hub::Tick(Clock::time_point now) {
   SharedBytes details = EncodeDetails();
   if (details_ != nullptr && *details == *details_) return;
   details_ = std::move(details);
-  for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
+  for (const auto& [client, seat] : clients_) client->Offer(Slot::kDetails, details_);
 }
 
 void Hub::SendNews(Slot slot, const std::string& news) {
@@ -109,7 +114,7 @@ void Hub::SendNews(Slot slot, const std::string& news) {
   SharedBytes& last = news_[slot];
   if (last != nullptr && *last == message) return;
   last = Share(std::move(message));
-  for (HubClient* const client : clients_) client->Offer(slot, last);
+  for (const auto& [client, seat] : clients_) client->Offer(slot, last);
 }
 
 void Hub::OnMessage(HubClient& client, std::string_view text) {
@@ -134,6 +139,7 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
   if (command->pictures) SetPictures(client, *command->pictures);
   if (command->dark) ChooseTheme();
   if (command->camera) SelectCamera(client, *command->camera);
+  if (command->few_states) SetFewStates(client, *command->few_states);
   if (command->look) LookBack(client, *command->look);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
 }
@@ -149,16 +155,34 @@ void Hub::SelectCamera(HubClient& client, const std::string& camera) {
                Share(EncodeError(feed_ == nullptr ? kNoRenderer : "unknown camera " + camera)));
 }
 
+// At once all states again: the one that the client has may be old.
+void Hub::SetFewStates(HubClient& client, bool few) {
+  const auto found = clients_.find(&client);
+  if (found == clients_.end()) return;
+  if (std::exchange(found->second.few_states, few) && !few) {
+    client.Offer(Slot::kState, EncodeNewestState());
+  }
+}
+
 void Hub::LookBack(HubClient& client, const struct LookBack& wanted) {
-  const auto state = history_ == nullptr ? nullptr
-                     : wanted.number     ? history_->Numbered(*wanted.number)
-                                         : history_->At(wanted.nanos);
-  if (state == nullptr) {
+  const auto found = clients_.find(&client);
+  if (found == clients_.end()) return;
+  Bucket& budget = found->second.past_states;
+  const auto now = Clock::now();
+  std::size_t most = kMaxPastStates;
+  while (most > 1 && budget.WaitFor(static_cast<double>(most), now).count() > 0) most /= 2;
+  std::optional<PastAnswer> answer;
+  if (history_ != nullptr) {
+    const auto details = [&](const SceneState& state) { return DetailsOf(&state); };
+    answer = AnswerLookBack(wanted, most, *history_, details, Moment());
+  }
+  if (!answer) {
     ++counters_.rejected["no history"];
     return client.Offer(Slot::kError, Share(EncodeError(kNoHistory)));
   }
-  ++counters_.past_states_encoded;
-  client.Offer(Slot::kPast, Share(EncodePast(wanted.id, *state, DetailsOf(state.get()), Moment())));
+  budget.Take(static_cast<double>(answer->states), now);
+  counters_.past_states_encoded += answer->states;
+  client.Offer(Slot::kPast, Share(std::move(answer->message)));
 }
 
 StateMoment Hub::Moment() const {
@@ -176,9 +200,9 @@ void Hub::SetPictures(HubClient& client, bool wanted) {
 
 // All share one picture: it is dark while no viewer has a light page.
 void Hub::ChooseTheme() {
-  const auto watches = [](const HubClient* client) { return client->wants_pictures(); };
-  const auto is_light = [&](const HubClient* client) {
-    return watches(client) && !client->wants_dark();
+  const auto watches = [](const auto& each) { return each.first->wants_pictures(); };
+  const auto is_light = [&](const auto& each) {
+    return watches(each) && !each.first->wants_dark();
   };
   const bool is_dark = std::any_of(clients_.begin(), clients_.end(), watches) &&
                        std::none_of(clients_.begin(), clients_.end(), is_light);
@@ -190,8 +214,8 @@ void Hub::ChooseTheme() {
 void Hub::CountViewers() {
   ChooseTheme();
   const int viewers =
-      static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const HubClient* client) {
-        return client->wants_pictures();
+      static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const auto& each) {
+        return each.first->wants_pictures();
       }));
   if (viewers == viewers_) return;
   viewers_ = viewers;
@@ -201,7 +225,7 @@ void Hub::CountViewers() {
 
 std::vector<ClientCounters> Hub::client_counters() const {
   std::vector<ClientCounters> all;
-  for (const HubClient* const client : clients_) all.push_back(client->counters());
+  for (const auto& [client, seat] : clients_) all.push_back(client->counters());
   return all;
 }
 

@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/http/bucket.h"
 #include "server/http/counters.h"
 #include "server/http/protocol.h"
 #include "server/http/role.h"
@@ -64,8 +64,9 @@ class Hub {
   [[nodiscard]] bool Join(HubClient& client);
   void Leave(HubClient& client);  // does nothing for a client that has not joined
 
-  /// Sends the newest state to all clients. If the last one was sent less than kMinStateInterval
-  /// ago, it returns the time after which to call again; zero: sent.
+  /// Sends the newest state to all clients; to those for whom a few are enough only if they have
+  /// got none for kFewInterval. If the last one was sent less than kMinStateInterval ago, it
+  /// returns the time after which to call again; zero: sent.
   Clock::duration SendState(Clock::time_point now);
   void SendPicture();
 
@@ -97,9 +98,20 @@ class Hub {
   static constexpr std::chrono::milliseconds kMinStateInterval{8};  // faster than any screen
   static constexpr std::chrono::milliseconds kTickInterval{125};
   static constexpr std::chrono::milliseconds kHeartbeat{350};
+  static constexpr std::chrono::milliseconds kFewInterval{240};  // with 60 states/s: four a second
+  // Former states per client: a page that plays needs at most 84 a second. Beyond these, an answer
+  // has one state.
+  static constexpr double kPastStatesAtOnce = 128, kPastStatesPerSecond = 200;
 
  private:
+  // What the hub remembers of a client.
+  struct Seat {
+    bool few_states = false;
+    Bucket past_states{kPastStatesAtOnce, kPastStatesPerSecond, Clock::now()};  // still to be had
+  };
+
   void SelectCamera(HubClient& client, const std::string& camera);
+  void SetFewStates(HubClient& client, bool few);
   void LookBack(HubClient& client, const LookBack& wanted);
   [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
@@ -120,14 +132,14 @@ class Hub {
   const marks::MarkBook* const marks_;
   OnCamera on_camera_;            // may be null
   GetSurroundings surroundings_;  // may be null
-  std::set<HubClient*> clients_;
+  std::map<HubClient*, Seat> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   bool is_dark_ = false;              // the live picture, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
   std::map<Slot, SharedBytes> news_;  // as last sent to all clients
   SharedBytes picture_;               // as last sent to all viewers; null without any
-  Clock::time_point state_sent_at_{};
+  Clock::time_point state_sent_at_{}, few_sent_at_{};  // to all; also to those who want few
 };
 
 }  // namespace kinescope::http

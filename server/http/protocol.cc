@@ -23,16 +23,30 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxCameraName = 64;
 
+template <class Unsigned>
+void PutAt(Bytes& bytes, std::size_t at, Unsigned value) {
+  static_assert(std::is_unsigned_v<Unsigned>);
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    bytes[at + i] = static_cast<std::uint8_t>((value >> (8 * i)) & 0xFFu);
+  }
+}
+
+std::uint64_t BitsOf(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+// Appends to `bytes`.
 class Writer {
  public:
-  explicit Writer(std::size_t size) { bytes_.reserve(size); }
+  explicit Writer(Bytes& bytes) : bytes_(bytes) {}
 
   template <class Unsigned>
   void Put(Unsigned value) {
-    static_assert(std::is_unsigned_v<Unsigned>);
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-      bytes_.push_back(static_cast<std::uint8_t>((value >> (8 * i)) & 0xFFu));
-    }
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + sizeof value);
+    PutAt(bytes_, at, value);
   }
   void PutFloat(double value) {
     const auto narrow = static_cast<float>(value);
@@ -41,20 +55,18 @@ class Writer {
     Put(bits);
   }
   // Integers are sent as float64, too: exact up to 2^53, as in JavaScript.
-  void PutDouble(double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    Put(bits);
-  }
+  void PutDouble(double value) { Put(BitsOf(value)); }
   void PutVector(const Eigen::Vector3d& v) {
     for (int i = 0; i < 3; ++i) PutFloat(v[i]);
   }
-  void PutBytes(const Bytes& more) { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
+  template <class Text>
+  void PutBytes(const Text& more) {
+    bytes_.insert(bytes_.end(), more.begin(), more.end());
+  }
   std::size_t size() const { return bytes_.size(); }
-  Bytes Take() { return std::move(bytes_); }
 
  private:
-  Bytes bytes_;
+  Bytes& bytes_;
 };
 
 double Micros(std::int64_t nanos) { return static_cast<double>(nanos) / 1e3; }
@@ -147,12 +159,10 @@ Bytes ToBytes(const json& message) {
   return Bytes(text.begin(), text.end());
 }
 
-}  // namespace
-
-Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
+void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
+  const std::size_t start = out.size();
   const std::uint8_t people = CountByte(state.people.size());
   const std::uint8_t objects = CountByte(state.objects.size());
-  Writer out(kStateHeaderBytes + people * std::size_t{1400});
   out.Put(static_cast<std::uint8_t>(MessageKind::kState));
   out.Put(kProtocolVersion);
   out.Put(static_cast<std::uint8_t>(state.liveness));
@@ -182,30 +192,55 @@ Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
   const history::Extent kept = moment.kept.value_or(history::Extent{});
   out.PutDouble(Micros(kept.first_nanos));
   out.PutDouble(static_cast<double>(kept.first_number));
-  KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
+  KINESCOPE_CHECK(out.size() - start == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], rooms[i].height);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person, 0);
-  return out.Take();
 }
 
-Bytes EncodePast(std::uint32_t id, const SceneState& state, const std::string& details,
-                 const StateMoment& moment) {
-  const Bytes encoded = EncodeState(state, moment);
-  Writer out(kPastHeaderBytes + encoded.size() + details.size());
+}  // namespace
+
+Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
+  Bytes bytes;
+  bytes.reserve(kStateHeaderBytes + state.people.size() * std::size_t{1400});
+  Writer out(bytes);
+  PutState(out, state, moment);
+  return bytes;
+}
+
+PastEncoder::PastEncoder(std::uint32_t id, const StateMoment& moment) : moment_(moment) {
+  Writer out(bytes_);
   out.Put(static_cast<std::uint8_t>(MessageKind::kPast));
   out.Put(kProtocolVersion);
-  out.Put(std::uint16_t{0});
+  out.Put(std::uint16_t{0});  // the count, see Finish()
   out.Put(id);
-  out.Put(static_cast<std::uint32_t>(encoded.size()));
+  out.Put(std::uint64_t{0});  // the time
+  KINESCOPE_CHECK(bytes_.size() == kPastHeaderBytes);
+}
+
+void PastEncoder::Add(const SceneState& state, const std::string& details) {
+  KINESCOPE_CHECK(count_ > 0 || !details.empty());
+  const std::size_t at = bytes_.size();
+  Writer out(bytes_);
+  out.Put(std::uint32_t{0});
   out.Put(static_cast<std::uint32_t>(details.size()));
-  out.PutBytes(encoded);
-  out.PutBytes(Bytes(details.begin(), details.end()));
-  return out.Take();
+  PutState(out, state, moment_);
+  PutAt(bytes_, at, static_cast<std::uint32_t>(bytes_.size() - at - kPastStateBytes));
+  out.PutBytes(details);
+  ++count_;
+}
+
+Bytes PastEncoder::Finish(std::int64_t until_nanos) {
+  KINESCOPE_CHECK(count_ <= std::numeric_limits<std::uint16_t>::max());
+  PutAt(bytes_, 2, static_cast<std::uint16_t>(count_));
+  PutAt(bytes_, 8, BitsOf(Micros(until_nanos)));
+  return std::move(bytes_);
 }
 
 Bytes EncodePicture(const Picture& picture) {
-  Writer out(kPictureHeaderBytes + picture.jpeg.size());
+  Bytes bytes;
+  bytes.reserve(kPictureHeaderBytes + picture.jpeg.size());
+  Writer out(bytes);
   out.Put(static_cast<std::uint8_t>(MessageKind::kPicture));
   out.Put(kProtocolVersion);
   out.Put(std::uint16_t{0});
@@ -214,30 +249,50 @@ Bytes EncodePicture(const Picture& picture) {
   out.PutDouble(Micros(picture.arrival_nanos));
   KINESCOPE_CHECK(out.size() == kPictureHeaderBytes);
   out.PutBytes(picture.jpeg);
-  return out.Take();
+  return bytes;
 }
 
 namespace {
 
-std::optional<LookBack> ParseLookBack(const json& value) {
+std::optional<std::int64_t> ParseNanos(const json& micros) {
   constexpr double kMaxMicros = 9e15;  // exact as a float64, and as nanoseconds
+  if (!micros.is_number() || !(std::abs(micros.get<double>()) < kMaxMicros)) return std::nullopt;
+  return std::llround(1e3 * micros.get<double>());
+}
+
+// With the id, `value` has two members, or four.
+std::optional<history::Span> ParseSpan(const json& value) {
+  const auto from = value.find("micros"), until = value.find("until_micros"),
+             every = value.find("every_micros");
+  const bool is_run = until != value.end() && every != value.end();
+  if (from == value.end() || value.size() != (is_run ? 4 : 2)) return std::nullopt;
+  const auto from_nanos = ParseNanos(*from);
+  const auto until_nanos = is_run ? ParseNanos(*until) : from_nanos;
+  const auto every_nanos = is_run ? ParseNanos(*every) : 0;
+  if (!from_nanos || !until_nanos || !every_nanos || *until_nanos < *from_nanos ||
+      *every_nanos < 0) {
+    return std::nullopt;
+  }
+  return history::Span{*from_nanos, *until_nanos, *every_nanos};
+}
+
+std::optional<LookBack> ParseLookBack(const json& value) {
   if (!value.is_object()) return std::nullopt;
-  const auto id = value.find("id"), micros = value.find("micros"), number = value.find("number");
-  if (value.size() != 2 || id == value.end() || !id->is_number_unsigned() ||
+  const auto id = value.find("id"), number = value.find("number");
+  if (id == value.end() || !id->is_number_unsigned() ||
       id->get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
     return std::nullopt;
   }
   LookBack look;
   look.id = id->get<std::uint32_t>();
-  if (number != value.end() && number->is_number_unsigned()) {
+  if (number != value.end()) {
+    if (value.size() != 2 || !number->is_number_unsigned()) return std::nullopt;
     look.number = number->get<std::uint64_t>();
     return look;
   }
-  if (micros == value.end() || !micros->is_number() ||
-      !(std::abs(micros->get<double>()) < kMaxMicros)) {
-    return std::nullopt;
-  }
-  look.nanos = std::llround(1e3 * micros->get<double>());
+  const auto span = ParseSpan(value);
+  if (!span) return std::nullopt;
+  look.span = *span;
   return look;
 }
 
@@ -275,7 +330,7 @@ struct CommandKind {
 };
 
 // A new command: a line here, and one in docs/http.md.
-constexpr std::array<CommandKind, 7> kCommandKinds = {{
+constexpr std::array<CommandKind, 8> kCommandKinds = {{
     {"pictures", Role::kViewer, "true or false", "true",
      [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.pictures); }},
     {"dark", Role::kViewer, "true or false", "true",
@@ -283,10 +338,14 @@ constexpr std::array<CommandKind, 7> kCommandKinds = {{
     {"camera", Role::kOperator, "a name", "\"front\"",
      [](const json& value, ClientCommand& c) { return Store(ParseName(value), c.camera); }},
     {"look", Role::kViewer,
-     "{\"id\": a count, \"micros\": a time of this server} or {\"id\": a count, \"number\": that "
-     "of a state}",
+     "{\"id\": a count, \"number\": that of a state}, {\"id\": a count, \"micros\": a time of this "
+     "server}, or the latter with \"until_micros\": a time not before it, and \"every_micros\": 0 "
+     "or "
+     "more",
      R"({"id": 1, "number": 0})",
      [](const json& value, ClientCommand& c) { return Store(ParseLookBack(value), c.look); }},
+    {"few_states", Role::kViewer, "true or false", "true",
+     [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.few_states); }},
     {"ping", Role::kViewer, "a number", "1",
      [](const json& value, ClientCommand& c) { return Store(ParseAnyNumber(value), c.ping); }},
     {"seen_states", Role::kViewer, "a count", "0",

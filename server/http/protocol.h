@@ -23,9 +23,9 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 5;
+inline constexpr std::uint8_t kProtocolVersion = 6;
 
-/// "kinescope.v5": the name of this version among the subprotocols of a WebSocket.
+/// "kinescope.v6": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();
 
 /// Whether a client that offers these subprotocols (a list, separated by commas) can read the
@@ -42,6 +42,7 @@ inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
 inline constexpr std::size_t kPastHeaderBytes = 16;
+inline constexpr std::size_t kPastStateBytes = 8;  // before each state of it
 
 /// What a message says beside its state.
 struct StateMoment {
@@ -54,16 +55,32 @@ struct StateMoment {
 /// those of core/person_links.h.
 Bytes EncodeState(const SceneState& state, const StateMoment& moment);
 
-/// The answer to LookBack `id`: a former state and the content of its message "details".
-Bytes EncodePast(std::uint32_t id, const SceneState& state, const std::string& details,
-                 const StateMoment& moment);
+/// The answer to LookBack `id`: former states, each with the content of the message "details" of
+/// its moment.
+class PastEncoder {
+ public:
+  PastEncoder(std::uint32_t id, const StateMoment& moment);
+
+  /// `details` "": those of the state before. @pre not so for the first one
+  void Add(const SceneState& state, const std::string& details);
+  std::size_t count() const { return count_; }
+  std::size_t bytes() const { return bytes_.size(); }  // of the message
+
+  /// `until_nanos`: up to when there are no other states in what was asked for. Ends the encoder.
+  Bytes Finish(std::int64_t until_nanos);
+
+ private:
+  const StateMoment moment_;
+  std::size_t count_ = 0;
+  Bytes bytes_;
+};
 
 Bytes EncodePicture(const Picture& picture);
 
-/// A request for a former state: the one of `number`, or the newest at `nanos`.
+/// A request for former states: the one of `number`, or those of `span`.
 struct LookBack {
-  std::uint32_t id = 0;    // of the client, returned unchanged
-  std::int64_t nanos = 0;  // SceneState::made_nanos
+  std::uint32_t id = 0;  // of the client, returned unchanged
+  history::Span span;
   std::optional<std::uint64_t> number;
 };
 
@@ -84,7 +101,8 @@ struct ClientCommand {
   std::optional<bool> dark;           // and whether it wants it dark
   std::optional<std::string> camera;  // of the live picture
   std::optional<LookBack> look;
-  std::optional<double> ping;  // the client's clock; returned unchanged
+  std::optional<bool> few_states;  // whether the newest state is enough a few times a second
+  std::optional<double> ping;      // the client's clock; returned unchanged
   // Number of states and pictures that the client has processed since it connected. A client that
   // reports these is sent only a few messages ahead, because messages that wait in a browser cannot
   // be replaced by newer ones.

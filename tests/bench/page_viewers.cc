@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +34,42 @@ double ArrivalMicros(const WsClient::Message& message) {
   return micros;
 }
 
+// What the page does while it plays five seconds back (web/held_run.js): it asks for half a second
+// at a time, the next one when half of that has been shown.
+class PlayingViewer {
+ public:
+  explicit PlayingViewer(WsClient& client) : client_(client) {
+    client.Send("{\"few_states\":true}");
+  }
+
+  void AskIfDue() {
+    const double now = NowMicros();
+    if (is_waiting_ || now < due_) return;
+    from_ = std::max(until_, now - kBehindMicros);
+    client_.Send("{\"look\":{\"id\":1,\"micros\":" + std::to_string(std::llround(from_)) +
+                 ",\"until_micros\":" + std::to_string(std::llround(from_ + kRunMicros)) +
+                 ",\"every_micros\":12000}}");
+    is_waiting_ = true;
+  }
+
+  // The number of former states in it.
+  std::uint64_t OnPast(const WsClient::Message& message) {
+    std::uint16_t count = 0;
+    std::memcpy(&count, message.bytes.data() + 2, sizeof count);
+    std::memcpy(&until_, message.bytes.data() + 8, sizeof until_);
+    due_ = (from_ + until_) / 2 + kBehindMicros;
+    is_waiting_ = false;
+    return count;
+  }
+
+ private:
+  static constexpr double kBehindMicros = 5e6, kRunMicros = 5e5;
+  WsClient& client_;
+  bool is_waiting_ = false;
+  double from_ = 0, until_ = 0;  // of the run that is held: times of the server
+  double due_ = 0;               // when to ask for the next one
+};
+
 void Print(const char* what, std::vector<double>& millis, double seconds, int viewers) {
   if (millis.empty()) return;
   std::sort(millis.begin(), millis.end());
@@ -47,7 +84,7 @@ void Print(const char* what, std::vector<double>& millis, double seconds, int vi
 int Usage() {
   std::fprintf(stderr,
                "page_viewers PORT VIEWERS SECONDS [pictures] [stalled=N] [back=N]\n"
-               "stalled, back: so many of the viewers stop reading, or look five seconds back\n");
+               "stalled, back: so many of the viewers stop reading, or play five seconds back\n");
   return 2;
 }
 
@@ -83,26 +120,28 @@ int main(int argc, char** argv) {
       }
       WsClient client(port);
       if (with_pictures) client.Send("{\"pictures\":true}");
+      std::optional<PlayingViewer> playing;
+      if (looks_back) playing.emplace(client);
       std::uint64_t last_state = 0;
-      std::uint64_t seen_states = 0, seen_pictures = 0, looks = 0;
+      std::uint64_t seen_states = 0, seen_pictures = 0;
+      client.Send("{\"seen_states\":0,\"seen_pictures\":0}");
       while (NowMicros() < end) {
+        if (playing) playing->AskIfDue();
         const auto message = client.Receive();
         if (message.is_text) continue;
         if (message.IsPast()) {
-          ++past;
+          past += playing->OnPast(message);
           continue;
         }
         const double late = (NowMicros() - ArrivalMicros(message)) / 1e3;
-        // As the page does, so that the server goes on sending.
-        (message.IsState() ? seen_states : seen_pictures) += 1;
-        client.Send("{\"seen_states\":" + std::to_string(seen_states) +
-                    ",\"seen_pictures\":" + std::to_string(seen_pictures) + "}");
+        // As the page does (web/client.js), so that the server goes on sending.
+        if (!message.IsState()) {
+          client.Send("{\"seen_pictures\":" + std::to_string(++seen_pictures) + "}");
+        } else if (++seen_states % 4 == 0) {
+          client.Send("{\"seen_states\":" + std::to_string(seen_states) + "}");
+        }
         if (message.IsState() && message.state_number() == last_state) continue;  // a heartbeat
         if (message.IsState()) last_state = message.state_number();
-        if (looks_back && message.IsState()) {
-          client.Send("{\"look\":{\"id\":" + std::to_string(++looks) +
-                      ",\"micros\":" + std::to_string(std::llround(NowMicros() - 5e6)) + "}}");
-        }
         if (looks_back) continue;
         const std::lock_guard<std::mutex> lock(mutex);
         (message.IsState() ? states : pictures).push_back(late);

@@ -118,6 +118,84 @@ test('playing goes on from the pause at the speed that is chosen, and catches up
   await close();
 });
 
+/** What the page sends and receives over its WebSocket. */
+function trafficOf(page) {
+  const traffic = { looks: [], few: [], states: 0, former: 0 };
+  page.on('websocket', (socket) => {
+    socket.on('framesent', ({ payload }) => {
+      const { look, few_states } = JSON.parse(payload);
+      if (look) traffic.looks.push(look);
+      if (few_states !== undefined) traffic.few.push(few_states);
+    });
+    socket.on('framereceived', ({ payload }) => {
+      if (typeof payload === 'string') return;
+      if (payload[0] === 1) traffic.states += 1;
+      if (payload[0] === 3) traffic.former += payload.readUInt16LE(2);
+    });
+  });
+  return traffic;
+}
+const sampleAfter = (page, number) => page.waitForFunction(
+  (wanted) => Number(document.getElementById('sample').textContent) > wanted, number, LONG);
+
+test('who plays the past asks for it twice a second, and is sent the newest state a few times a second', async () => {
+  let traffic;
+  const { page, problems, close } = await openLive(4, { beforeLoad: (fresh) => { traffic = trafficOf(fresh); } });
+  await page.keyboard.press('PageUp');
+  await statusIs(page, /^Behind/);
+  await page.keyboard.press('Space');
+  const first = await sampleOf(page), before = { ...traffic, looks: traffic.looks.length };
+  const start = performance.now();
+  await sampleAfter(page, first + 120);
+  const seconds = (performance.now() - start) / 1000;
+  assert.deepEqual(traffic.few, [true]);
+  const looks = traffic.looks.length - before.looks, former = traffic.former - before.former;
+  assert.ok(looks <= 3 + 5 * seconds, `${looks} requests in ${seconds} s`);
+  assert.ok(former > 3 * looks, `${former} former states by ${looks} requests`);  // fewer on a busy machine
+  assert.ok(traffic.states - before.states <= 2 + 5 * seconds, `${traffic.states - before.states} newest states in ${seconds} s`);
+  // Single moments are asked for alone, also while it plays.
+  const runs = traffic.looks.length;
+  await page.keyboard.press('Home');
+  await page.waitForFunction((older) => Number(document.getElementById('sample').textContent) < older, first, LONG);
+  assert.deepEqual(Object.keys(traffic.looks[runs]).sort(), ['id', 'micros']);
+  const states = traffic.states, newest = await page.evaluate(() => performance.now());
+  await page.keyboard.press('Escape');
+  await statusIs(page, /^Live$/);
+  await page.waitForFunction((from) => performance.now() > from + 500, newest, LONG);
+  assert.deepEqual(traffic.few, [true, false]);
+  assert.ok(traffic.states - states > 10, `${traffic.states - states} states since it is live`);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test('the past plays at the speed that is chosen, with the states of each moment', async () => {
+  const { page, close } = await openLive(5);
+  await page.keyboard.press('Home');
+  await statusIs(page, /^Behind/);
+  for (const speed of ['0.5', '1', '2']) {
+    await page.selectOption('#speed', speed);
+    await page.keyboard.press('Home');
+    await page.click('#play');
+    const [from, until] = await page.evaluate(async () => {
+      const sample = () => Number(document.getElementById('sample').textContent);
+      const changed = () => new Promise((resolve) => {
+        new MutationObserver((_, observer) => { observer.disconnect(); resolve(undefined); })
+          .observe(document.getElementById('sample'), { childList: true, characterData: true, subtree: true });
+      });
+      const at = [];
+      while (at.length < 2) {
+        await changed();
+        if (at.length === 0 || performance.now() - at[0].millis > 1000) at.push({ millis: performance.now(), sample: sample() });
+      }
+      return at;
+    });
+    const rate = (until.sample - from.sample) / ((until.millis - from.millis) / 1000) / 60;
+    assert.ok(Math.abs(rate / Number(speed) - 1) < 0.3, `${rate} instead of ${speed}`);
+    await page.click('#play');
+  }
+  await close();
+});
+
 test('a link shows the same moment to another viewer', async () => {
   const { page, close } = await openLive();
   await page.keyboard.press('Space');

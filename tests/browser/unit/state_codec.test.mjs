@@ -27,16 +27,30 @@ test('a state of two people, gloves and an object is decoded as the server encod
   assertClose(decodeState(state), told.state);
 });
 
-test('a former state comes with the id of its request and its details', () => {
+test('former states come with the id of their request and with details, which are not repeated', () => {
   const past = toBuffer(told.past_hex);
   assert.equal(messageKind(past), KIND.past);
-  const { id, state: former, details } = decodePast(past);
+  const { id, untilMicros, formers } = decodePast(past);
   assert.equal(id, 7);
-  assertClose(former, told.state);
-  assert.equal(details, '{"details": 5}');
+  assert.equal(untilMicros, 2_500_000);
+  assert.equal(formers.length, 2);
+  for (const former of formers) {
+    assertClose(former.state, told.state);
+    assert.deepEqual([former.stateNumber, former.madeMicros], [told.state.stateNumber, told.state.madeMicros]);
+    assert.equal(former.details, '{"details": 5}');
+  }
   for (const size of [7, 15, 20, past.byteLength - 1]) {
     assert.throws(() => decodePast(past.slice(0, size)), /truncated/, `taken at ${size} bytes`);
   }
+  const none = past.slice(0, 16);
+  new DataView(none).setUint16(2, 0, true);
+  assert.throws(() => decodePast(none), /no former state/);
+  const short = new Uint8Array(24 + 95);
+  short.set(new Uint8Array(past.slice(0, 24)));
+  short.set([1, 0], 2);          // states
+  short.set([95, 0, 0, 0], 16);  // bytes of the first
+  short.set([0, 0, 0, 0], 20);
+  assert.throws(() => decodePast(short.buffer), /truncated/);
 });
 
 test('every truncated state is rejected', () => {

@@ -76,3 +76,13 @@ test('what has ended is not live: it is paused at its end, and plays from the be
   assert.equal(time.momentAt(3100, ended), 601_000);
   assert.deepEqual([time.isLive, time.isPlaying], [false, false]);
 });
+
+test('at the end of a recording, give or take the rounding of its time, playing begins at the oldest moment', () => {
+  const ended = { ...kept, hasEnded: true };
+  for (const [before, oldest] of [[0, true], [1e-8, true], [0.05, true], [10, false]]) {
+    const time = new ViewerTime();
+    time.pause(0, ended, kept.newest - before);
+    time.play(0, ended);
+    assert.equal(time.momentAt(0, ended), oldest ? kept.oldest : kept.newest - before, `${before} ms before it`);
+  }
+});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <thread>
 
 #include "tests/server/http/test_scene.h"
@@ -95,6 +96,69 @@ TEST(History, FindsEveryStateByItsNumberAndByTime) {
   EXPECT_EQ(extent->first_number, 10u);
   EXPECT_EQ(extent->last_number, 400u);
   EXPECT_EQ(extent->last_nanos, 400 * kStep + 1000);
+}
+
+std::int64_t MadeNanos(std::uint64_t number) {
+  return static_cast<std::int64_t>(number) * kStep + 1000;
+}
+
+struct Visited {
+  std::vector<std::uint64_t> numbers;
+  std::optional<std::int64_t> until;
+};
+
+Visited VisitAll(const History& history, const Span& span, std::size_t most = 1000) {
+  Visited visited;
+  visited.until = history.Visit(span, [&](const SceneState& state) {
+    visited.numbers.push_back(state.number);
+    return visited.numbers.size() < most;
+  });
+  return visited;
+}
+
+TEST(History, VisitsTheStatesOfASpan) {
+  History history;
+  EXPECT_FALSE(VisitAll(history, {0, 1'000'000'000, 0}).until);
+  Fill(history, 10, 400);  // three chunks, and 31 states that wait
+  for (const auto& [first, last] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{
+           {100, 300}, {10, 10}, {365, 390}, {380, 400}, {129, 130}}) {
+    const Visited all = VisitAll(history, {MadeNanos(first), MadeNanos(last), 0});
+    std::vector<std::uint64_t> expected(last - first + 1);
+    std::iota(expected.begin(), expected.end(), first);
+    EXPECT_EQ(all.numbers, expected);
+    EXPECT_EQ(all.until, MadeNanos(last));
+  }
+  // The state of a moment is the newest at it.
+  EXPECT_THAT(VisitAll(history, {MadeNanos(20) + 5, MadeNanos(22) + 5, 0}).numbers,
+              ::testing::ElementsAre(20, 21, 22));
+  EXPECT_EQ(VisitAll(history, {MadeNanos(20) + 5, MadeNanos(22) + 5, 0}).until, MadeNanos(22) + 5);
+}
+
+TEST(History, LeavesOutStatesThatAreTooNearToTheOneBefore) {
+  History history;
+  Fill(history, 10, 400);
+  EXPECT_THAT(VisitAll(history, {MadeNanos(100), MadeNanos(110), 3 * kStep}).numbers,
+              ::testing::ElementsAre(100, 103, 106, 109));
+  constexpr std::int64_t kHuge = 9'000'000'000'000'000'000;
+  EXPECT_THAT(VisitAll(history, {MadeNanos(100), kHuge, kHuge}).numbers,
+              ::testing::ElementsAre(100));
+}
+
+TEST(History, SaysUpToWhenItHasVisitedASpan) {
+  History history;
+  Fill(history, 10, 400);
+  const Visited newest = VisitAll(history, {MadeNanos(399), MadeNanos(500), 0});
+  EXPECT_THAT(newest.numbers, ::testing::ElementsAre(399, 400));
+  EXPECT_EQ(newest.until, MadeNanos(400)) << "newer ones are still to come";
+  const Visited stopped = VisitAll(history, {MadeNanos(100), MadeNanos(300), 0}, 5);
+  EXPECT_EQ(stopped.numbers.size(), 5u);
+  EXPECT_EQ(stopped.until, MadeNanos(104));
+  const Visited gone = VisitAll(history, {0, 1000, 0});
+  EXPECT_THAT(gone.numbers, ::testing::ElementsAre(10)) << "the oldest";
+  EXPECT_EQ(gone.until, MadeNanos(10));
+  const Visited future = VisitAll(history, {MadeNanos(800), MadeNanos(900), 0});
+  EXPECT_THAT(future.numbers, ::testing::ElementsAre(400));
+  EXPECT_EQ(future.until, MadeNanos(400));
 }
 
 TEST(History, KeepsPeopleWhoComeAndGo) {

@@ -295,8 +295,11 @@ json Describe() {
                        {"quaternion", Numbers(object.pose.orientation)}});
   }
   const StateMoment moment = {5'004'000'000, 3, history::Extent{2'000'000'000, 0, 12, 0}};
+  PastEncoder past(7, moment);
+  past.Add(state, R"({"details": 5})");
+  past.Add(state, "");
   return {{"hex", Hex(EncodeState(state, moment))},
-          {"past_hex", Hex(EncodePast(7, state, R"({"details": 5})", moment))},
+          {"past_hex", Hex(past.Finish(2'500'000'000))},
           {"state",
            {{"liveness", "live"},
             {"counter", state.counter},

@@ -10,6 +10,8 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_outline.h"
+#include "server/http/look_back.h"
+#include "tests/server/http/past_message.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
 
@@ -238,6 +240,26 @@ TEST(PictureMessage, ContainsTheNumberOfItsState) {
   EXPECT_EQ(bytes.back(), 0xFF);
 }
 
+TEST(PastMessage, ContainsStatesAndTheTextsThatHaveChanged) {
+  SceneState state = Scene();
+  PastEncoder encoder(9, {});
+  encoder.Add(state, "one");
+  state.number = 42;
+  encoder.Add(state, "");
+  EXPECT_EQ(encoder.count(), 2u);
+  const std::size_t size = encoder.bytes();
+  const Bytes bytes = encoder.Finish(5'000'000'000);
+  EXPECT_EQ(bytes.size(), size);
+  const testing::PastMessage past(bytes);
+  EXPECT_EQ(past.id, 9u);
+  EXPECT_EQ(past.until_micros, 5'000'000);
+  EXPECT_EQ(past.Numbers(), (std::vector<std::uint64_t>{Scene().number, 42}));
+  EXPECT_EQ(past.states[0].details, "one");
+  EXPECT_EQ(past.states[1].details, "");
+  EXPECT_EQ(bytes.size(),
+            kPastHeaderBytes + 3 + 2 * (kPastStateBytes + EncodeState(state, {}).size()));
+}
+
 TEST(ClientCommand, IsOneJsonObjectWithKnownMembers) {
   const auto command = ParseCommand(R"({"pictures": true, "camera": "front", "ping": 12.5})");
   ASSERT_TRUE(command) << command.error();
@@ -245,6 +267,14 @@ TEST(ClientCommand, IsOneJsonObjectWithKnownMembers) {
   EXPECT_EQ(command->camera, "front");
   EXPECT_EQ(command->ping, 12.5);
   EXPECT_TRUE(ParseCommand("{}"));
+  const auto run = ParseCommand(
+      R"({"few_states": true, "look": {"id": 3, "micros": 5.5, "until_micros": 8, "every_micros": 2}})");
+  ASSERT_TRUE(run) << run.error();
+  EXPECT_EQ(run->few_states, true);
+  EXPECT_EQ(run->look->id, 3u);
+  EXPECT_EQ(run->look->span.from_nanos, 5500);
+  EXPECT_EQ(run->look->span.until_nanos, 8000);
+  EXPECT_EQ(run->look->span.every_nanos, 2000);
   const auto seen = ParseCommand(R"({"seen_states": 7, "seen_pictures": 0})");
   ASSERT_TRUE(seen) << seen.error();
   EXPECT_EQ(seen->seen_states, 7u);
@@ -303,6 +333,9 @@ TEST(ProtocolManual, StatesTheSizesAndTheVersion) {
   expect("corner, " + std::to_string(kCornerBytes) + " bytes");
   expect("foot, " + std::to_string(kFootBytes) + " bytes");
   expect("solid, " + std::to_string(kSolidBytes) + " bytes");
+  expect("former states header, " + std::to_string(kPastHeaderBytes) + " bytes");
+  expect("former state, " + std::to_string(kPastStateBytes) + " bytes");
+  expect("At most " + std::to_string(kMaxPastStates) + " states");
   expect("picture header, " + std::to_string(kPictureHeaderBytes) + " bytes");
 }
 

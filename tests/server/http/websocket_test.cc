@@ -10,6 +10,7 @@
 #include "core/system/clocks.h"
 #include "server/http/hub.h"
 #include "server/http/protocol.h"
+#include "tests/server/http/past_message.h"
 #include "tests/server/http/test_server.h"
 
 namespace kinescope::http::testing {
@@ -88,66 +89,129 @@ TEST(WebSocket, RepeatsAnOldStateSoThatClientsDetectADeadServer) {
   }
 }
 
-// The answer to a request for a former state, taken apart as docs/http.md has it.
-struct Past {
-  explicit Past(const WsClient::Message& message) {
-    std::uint32_t sizes[2];
-    std::memcpy(&id, message.bytes.data() + 4, sizeof id);
-    std::memcpy(sizes, message.bytes.data() + 8, sizeof sizes);
-    EXPECT_EQ(message.bytes.size(), kPastHeaderBytes + sizes[0] + sizes[1]);
-    const auto from = message.bytes.begin() + kPastHeaderBytes;
-    state.bytes.assign(from, from + sizes[0]);
-    details = nlohmann::json::parse(from + sizes[0], message.bytes.end())["details"];
-  }
-  std::uint32_t id = 0;
-  WsClient::Message state;
-  nlohmann::json details;
-};
-
-double MadeMicros(const WsClient::Message& state) {
-  double value = 0;
-  std::memcpy(&value, state.bytes.data() + 72, sizeof value);
-  return value;
-}
-
 TEST(WebSocket, ShowsFormerStatesToThoseWhoAsk) {
   TestServer site;
-  WsClient viewer(site.server.port()), other(site.server.port());
-  for (std::uint64_t number = 5; number <= 300; ++number) PublishAndSee(site, other, number);
-  viewer.Send(R"({"look": {"id": 17, "number": 20}})");
-  const Past past(viewer.ReceivePast());
+  WsClient viewer(site.server.port());
+  for (std::uint64_t number = 5; number <= 300; ++number) site.PublishState(number);
+  const auto look = [&](const std::string& wanted) {
+    viewer.Send(R"({"look": {)" + wanted + "}}");
+    PastMessage past(viewer.ReceivePast().bytes);
+    EXPECT_EQ(past.states.size(), 1u);
+    return past;
+  };
+  const PastMessage past = look(R"("id": 17, "number": 20)");
   EXPECT_EQ(past.id, 17u);
-  EXPECT_EQ(past.state.state_number(), 20u);
-  EXPECT_EQ(past.details["people"][0]["loads"][0]["channel"], "flexion");
-  // By the time that it says of itself, and a little later.
-  const std::string micros = std::to_string(MadeMicros(past.state) + 1);
-  viewer.Send(R"({"look": {"id": 18, "micros": )" + micros + "}}");
-  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 20u);
-  viewer.Send(R"({"look": {"id": 19, "micros": 0}})");
-  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 5u) << "the oldest";
-  viewer.Send(R"({"look": {"id": 20, "number": 1000}})");
-  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 300u) << "the newest";
+  EXPECT_EQ(past.states[0].number, 20u);
+  const auto details = nlohmann::json::parse(past.states[0].details)["details"];
+  EXPECT_EQ(details["people"][0]["loads"][0]["channel"], "flexion");
+  // By the time that it says of itself.
+  const std::string micros = nlohmann::json(past.states[0].made_micros).dump();
+  EXPECT_EQ(look(R"("id": 18, "micros": )" + micros).states[0].number, 20u);
+  EXPECT_EQ(look(R"("id": 19, "micros": 0)").states[0].number, 5u) << "the oldest";
+  EXPECT_EQ(look(R"("id": 20, "number": 1000)").states[0].number, 300u) << "the newest";
   site.PublishState(301);
   while (viewer.ReceiveState().state_number() != 301) {
   }
   EXPECT_EQ(site.HttpCounters()["past_states_encoded"], 4);
 }
 
+TEST(WebSocket, SendsARunOfFormerStatesInOneMessage) {
+  TestServer site;
+  WsClient viewer(site.server.port());
+  for (std::uint64_t number = 1; number <= 300; ++number) site.PublishState(number);
+  viewer.Send(R"({"look": {"id": 1, "micros": 0, "until_micros": 8e15, "every_micros": 0}})");
+  const PastMessage run(viewer.ReceivePast().bytes);
+  EXPECT_EQ(run.id, 1u);
+  ASSERT_EQ(run.states.size(), 64u) << "so many at most";
+  for (std::size_t i = 1; i < run.states.size(); ++i) {
+    EXPECT_GT(run.states[i].number, run.states[i - 1].number);
+    EXPECT_EQ(run.states[i].details, "") << "as before";
+  }
+  EXPECT_EQ(run.until_micros, run.states.back().made_micros);
+}
+
+TEST(WebSocket, SendsClientsThatAskForTooManyFormerStatesOneAtATime) {
+  TestServer site;
+  WsClient greedy(site.server.port()), other(site.server.port());
+  for (std::uint64_t number = 1; number <= 300; ++number) site.PublishState(number);
+  const auto ask = [](WsClient& client) {
+    client.Send(R"({"look": {"id": 1, "micros": 0, "until_micros": 8e15, "every_micros": 0}})");
+    return PastMessage(client.ReceivePast().bytes).states.size();
+  };
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t states = 0;
+  constexpr std::size_t kAsked = 50;
+  for (std::size_t i = 0; i < kAsked; ++i) states += ask(greedy);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_LE(static_cast<double>(states),
+            Hub::kPastStatesAtOnce + Hub::kPastStatesPerSecond * took.count() + kAsked);
+  EXPECT_EQ(ask(other), 64u) << "each client has a share of its own";
+}
+
 TEST(WebSocket, RefusesMomentsThatAreNone) {
   TestServer site;
   WsClient viewer(site.server.port());
-  viewer.Send(R"({"look": {"id": 1, "number": 1}})");
-  EXPECT_THAT(viewer.ReceiveText("error")["error"], HasSubstr("none came yet"));
+  for (const char* look : {R"({"id": 1, "number": 1})",
+                           R"({"id": 1, "micros": 1, "until_micros": 2, "every_micros": 0})"}) {
+    viewer.Send(std::string(R"({"look": )") + look + "}");
+    EXPECT_THAT(viewer.ReceiveText("error")["error"], HasSubstr("none came yet"));
+  }
   for (const char* look :
-       {R"(5)", R"({})", R"({"id": 1})", R"({"id": -1, "number": 5})", R"({"id": 1, "number": -5})",
-        R"({"id": 1, "micros": "now"})", R"({"id": 1, "micros": 1e30})",
-        R"({"id": 1, "micros": 5, "number": 5})", R"({"id": 4294967296, "number": 5})"}) {
+       {R"(5)",
+        R"({})",
+        R"({"id": 1})",
+        R"({"id": -1, "number": 5})",
+        R"({"id": 1, "number": -5})",
+        R"({"id": 1, "micros": "now"})",
+        R"({"id": 1, "micros": 1e30})",
+        R"({"id": 1, "micros": 5, "number": 5})",
+        R"({"id": 4294967296, "number": 5})",
+        R"({"id": 1, "micros": 5, "until_micros": 6})",
+        R"({"id": 1, "micros": 5, "every_micros": 6})",
+        R"({"id": 1, "micros": 5, "until_micros": 4, "every_micros": 0})",
+        R"({"id": 1, "micros": 5, "until_micros": 6, "every_micros": -1})",
+        R"({"id": 1, "micros": 5, "until_micros": 1e30, "every_micros": 0})",
+        R"({"id": 1, "micros": 5, "until_micros": 6, "every_micros": 1e30})",
+        R"({"id": 1, "micros": 5, "until_micros": "6", "every_micros": 0})",
+        R"({"id": 1, "micros": 5, "until_micros": 6, "most": 7})",
+        R"({"id": 1, "until_micros": 6, "every_micros": 0})",
+        R"({"id": 1, "number": 5, "until_micros": 6, "every_micros": 0})",
+        R"({"id": 1, "micros": 5, "until_micros": 6, "every_micros": 0, "most": 7})"}) {
     viewer.Send(std::string(R"({"look": )") + look + "}");
     EXPECT_THAT(viewer.ReceiveText("error")["error"], HasSubstr("look: expected")) << look;
   }
   site.PublishState(2);
   viewer.Send(R"({"look": {"id": 1, "number": 1}})");
-  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 2u);
+  EXPECT_EQ(PastMessage(viewer.ReceivePast().bytes).Numbers(), std::vector<std::uint64_t>{2});
+}
+
+TEST(WebSocket, SendsFewStatesToThoseWhoWantFew) {
+  TestServer site;
+  WsClient few(site.server.port()), all(site.server.port());
+  few.Send(R"({"few_states": true, "ping": 1})");
+  few.ReceiveText("pong");
+  const auto start = std::chrono::steady_clock::now();
+  for (std::uint64_t number = 1; number <= 100; ++number) PublishAndSee(site, all, number);
+  // It wants all again, and gets the newest at once.
+  few.Send(R"({"few_states": false})");
+  std::size_t received = 1;
+  while (few.ReceiveState().state_number() != 100) ++received;
+  const auto intervals = (std::chrono::steady_clock::now() - start) / Hub::kFewInterval;
+  EXPECT_LE(received, static_cast<std::size_t>(intervals) + 3) << "one at first, one at last";
+  PublishAndSee(site, few, 101);
+}
+
+TEST(WebSocket, ShowsThoseWhoWantFewStatesThatTheServerRuns) {
+  TestServer site;
+  site.PublishState(5);
+  WsClient few(site.server.port());
+  few.Send(R"({"few_states": true})");
+  double last = SentMicros(few.ReceiveState());
+  for (int i = 0; i < 3; ++i) {
+    const double sent = SentMicros(few.ReceiveState());
+    EXPECT_LT(sent - last, 1e6) << "a page calls the server dead after 1.5 s";
+    last = sent;
+  }
 }
 
 TEST(WebSocket, LimitsTheRateOfStates) {
