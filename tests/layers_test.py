@@ -183,9 +183,9 @@ def faults_not_found(tree):
 
     include("core/system/clocks.h", '#include "server/app/progress.h"',
             "{}: core/system may not include server/app/progress.h")
-    include("server/app/loads/html.h", '#include "server/app/render/provenance.h"',
+    include("server/app/loads/svg.h", '#include "server/app/render/provenance.h"',
             "{}: server/app/loads may not include server/app/render/provenance.h")
-    include("server/app/loads/html.h", "#include <CLI/CLI.hpp>",
+    include("server/app/loads/svg.h", "#include <CLI/CLI.hpp>",
             "{}: CLI/CLI.hpp may only be included in server/app")
     include("render/image/image.h", '#  include "render/vtk/ground.h"  // indented',
             "{}: render/image may not include render/vtk/ground.h")

@@ -138,25 +138,6 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   return golden_case;
 }
 
-std::vector<GoldenCase> ReadGoldenCases(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  if (error) {
-    throw UsageError(fmt::format("folder '{}': {}; name the folder that holds the golden cases",
-                                 folder.string(), error.message()));
-  }
-  if (files.empty())
-    throw UsageError(fmt::format("folder '{}' contains no golden case (*.yaml)", folder.string()));
-  std::sort(files.begin(), files.end());
-  std::vector<GoldenCase> cases;
-  cases.reserve(files.size());
-  for (const fs::path& file : files) cases.push_back(LoadGoldenCase(file));
-  return cases;
-}
-
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
   RenderPlanner planner(golden_case.view, {}, options);

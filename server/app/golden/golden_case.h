@@ -45,9 +45,6 @@ struct GoldenCase {
 /// @throws UsageError naming file, line and key.
 GoldenCase LoadGoldenCase(const std::filesystem::path& yaml);
 
-/// Every case of a folder, by name. @throws UsageError where there is none.
-std::vector<GoldenCase> ReadGoldenCases(const std::filesystem::path& folder);
-
 struct GoldenDrawing {
   render::Image image;
   /// Several views: "<view>/<joint>", those that lie wholly within their view.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/system/words.h"
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_finding.h"
 #include "server/app/loads/report_notes.h"

@@ -12,7 +12,7 @@
 #include "core/system/stop_signal.h"
 #include "render/camera/camera.h"
 #include "render/image/png_file.h"
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 #include "server/app/loads/report_text.h"
 
 namespace kinescope::app {

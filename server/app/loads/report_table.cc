@@ -7,7 +7,7 @@
 
 #include "core/compression_limits.h"
 #include "core/system/words.h"
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_text.h"
 #include "server/loads/joint_score.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 
 namespace kinescope::app {
 namespace {

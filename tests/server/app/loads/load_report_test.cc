@@ -11,7 +11,7 @@
 #include <regex>
 
 #include "core/system/errors.h"
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 #include "server/table/load_rows.h"
 #include "tests/full_disk.h"
 #include "tests/server/app/loads/trial_scenes.h"

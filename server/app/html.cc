@@ -1,4 +1,4 @@
-#include "server/app/loads/html.h"
+#include "server/app/html.h"
 
 #include <cstdint>
 

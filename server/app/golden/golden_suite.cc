@@ -1,0 +1,93 @@
+#include "server/app/golden/golden_suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "core/system/errors.h"
+#include "core/system/words.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kCase[] = ".yaml", kPicture[] = ".png", kObjects[] = ".objects.json";
+
+// "bend" of "bend.objects.json"; nullopt if the name has another ending.
+std::optional<std::string> NameBefore(const std::string& ending, const fs::path& file) {
+  const std::string name = file.filename();
+  if (name.size() <= ending.size()) return std::nullopt;
+  const std::size_t at = name.size() - ending.size();
+  if (name.compare(at, ending.size(), ending) != 0) return std::nullopt;
+  return name.substr(0, at);
+}
+
+FoundCase Read(const fs::path& yaml) {
+  FoundCase found;
+  found.name = yaml.stem();
+  try {
+    found.read = LoadGoldenCase(yaml);
+  } catch (const std::exception& error) {
+    found.error = error.what();
+  }
+  return found;
+}
+
+std::string NotThere(const fs::path& folder, const std::string& name,
+                     const std::set<std::string>& known) {
+  const std::string suggestion =
+      SuggestionFor(name, std::vector<std::string>(known.begin(), known.end()));
+  return fmt::format("folder '{}' contains no golden case '{}'{}", folder.string(), name,
+                     suggestion.empty() ? "; write " + name + kCase + " there" : suggestion);
+}
+
+}  // namespace
+
+fs::path GoldenSuite::PictureOf(const FoundCase& found) const {
+  return folder / (found.name + kPicture);
+}
+
+fs::path GoldenSuite::ObjectsOf(const FoundCase& found) const {
+  return folder / (found.name + kObjects);
+}
+
+GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::string>& names) {
+  std::set<std::string> known;
+  std::vector<fs::path> accepted;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (const auto name = NameBefore(kCase, entry.path())) known.insert(*name);
+    if (NameBefore(kPicture, entry.path()) || NameBefore(kObjects, entry.path())) {
+      accepted.push_back(entry.path().filename());
+    }
+  }
+  if (error) {
+    throw UsageError(fmt::format("folder '{}': {}; name the folder that holds the golden cases",
+                                 folder.string(), error.message()));
+  }
+  if (known.empty()) {
+    throw UsageError(fmt::format("folder '{}' contains no golden case (*.yaml)", folder.string()));
+  }
+  GoldenSuite suite;
+  suite.folder = folder;
+  for (const std::string& name : names) {
+    if (known.count(name) == 0) throw UsageError(NotThere(folder, name, known));
+  }
+  const std::set<std::string> chosen =
+      names.empty() ? known : std::set<std::string>(names.begin(), names.end());
+  for (const std::string& name : chosen) suite.cases.push_back(Read(folder / (name + kCase)));
+  if (!names.empty()) return suite;  // of the others nothing is known
+  std::sort(accepted.begin(), accepted.end());
+  for (fs::path& file : accepted) {
+    const auto name = NameBefore(kPicture, file);
+    if (known.count(name ? *name : *NameBefore(kObjects, file)) == 0) {
+      suite.orphans.push_back(std::move(file));
+    }
+  }
+  return suite;
+}
+
+}  // namespace kinescope::app

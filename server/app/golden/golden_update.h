@@ -1,0 +1,18 @@
+/// `golden update`: accepts what the cases show now. One thread.
+#pragma once
+
+#include "render/renderer.h"
+#include "server/app/golden/golden_suite.h"
+
+namespace kinescope::app {
+
+/// Writes what has changed, and prints a line for each case. What cannot be drawn, or shows
+/// nothing, is not accepted and keeps no other case from it. Returns the exit code: 0, or 2 if any
+/// was not accepted.
+/// @throws std::runtime_error if a file cannot be written, or when interrupted.
+int UpdateSuite(const GoldenSuite& suite, render::Renderer& renderer);
+
+/// @throws UsageError in CI (environment variable CI), where no person looks at what is accepted.
+void RefuseToAcceptInCi();
+
+}  // namespace kinescope::app
