@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/image/png_file.h"
+#include "tests/shared_data.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
@@ -117,10 +118,11 @@ TEST_F(GoldenCheck, ComparesTheOthersWhenACaseCannotBeDrawn) {
   WriteCase("d_late", "source: demo:lift\ntime: 800000\n");
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("a_key.yaml:2"), HasSubstr("colour"),
-                                HasSubstr("b_cut.yaml"), HasSubstr("nowhere.mvnx"),
-                                HasSubstr("d_late"), HasSubstr("bend                     same"),
-                                HasSubstr("1 same, 0 differ, 4 not compared")));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("a_key.yaml:2"), HasSubstr("colour"), HasSubstr("b_cut.yaml"),
+                    HasSubstr("c_missing.yaml: source"), HasSubstr("nowhere.mvnx"),
+                    HasSubstr("d_late"), HasSubstr("bend                     same"),
+                    HasSubstr("1 same, 0 differ, 4 not compared")));
 }
 
 TEST_F(GoldenCheck, FailsForAPictureThatBelongsToNoCase) {
@@ -154,7 +156,7 @@ TEST_F(GoldenCheck, WritesJunitForServers) {
   const std::string xml = testing::ReadFile(case_ / "junit.xml");
   EXPECT_THAT(xml,
               AllOf(HasSubstr("tests=\"3\" failures=\"1\" errors=\"1\""),
-                    HasSubstr("name=\"a&lt;b&amp;\""), HasSubstr("<error type=\"not compared\""),
+                    HasSubstr("name=\"a&#60;b&#38;\""), HasSubstr("<error type=\"not compared\""),
                     HasSubstr("<failure type=\"differs\" message=\"1 pixels differ"),
                     HasSubstr("[[ATTACHMENT|" + (case_ / "out/bend.diff.png").string() + "]]")));
   EXPECT_THAT(xml, Not(HasSubstr("a<b")));

@@ -99,8 +99,9 @@ CaseVerdict Check(const GoldenSuite& suite, const FoundCase& found, const CheckS
   verdict.file = suite.folder / (found.name + ".yaml");
   if (found.read) verdict.why = *found.read->why;
   const auto cannot = [&](const std::exception& error) {
+    const std::string where = found.read ? verdict.file.string() + ": " : "";  // else it has it
     verdict.outcome = Outcome::kNotCompared;
-    verdict.problems = {error.what()};
+    verdict.problems = {where + error.what()};
     return verdict;
   };
   std::optional<GoldenDrawing> drawing;
