@@ -68,6 +68,12 @@ class Server:
         connection.close()
         return answer.status, answer.getheader("Content-Type"), content
 
+    def wait_until_found(self, target):
+        end = time.monotonic() + PATIENCE_SECS
+        while self.send("GET", target)[0] == 404:
+            if time.monotonic() > end:
+                sys.exit(f"{target} is never there")
+
     def wait_for(self, target, is_wanted):
         end = time.monotonic() + PATIENCE_SECS
         while time.monotonic() < end:
@@ -227,9 +233,13 @@ def check_parts():
         expect("a server without pictures", server, operation, 503, "GET", "/api/v1/snapshot.png")
 
 
-with Server() as server:
+ROBOT = tempfile.NamedTemporaryFile("w", suffix=".urdf")
+ROBOT.write("<robot name='arm'><link name='base'><visual><geometry><box size='1 1 1'/></geometry></visual></link></robot>")
+ROBOT.flush()
+with Server("--robot", ROBOT.name) as server:
     state = server.wait_for("/api/v1/state", lambda state: state["people"] and state["liveness"] == "live")
     server.wait_for("/api/v1/diagnostics", lambda diagnostics: diagnostics.get("stream"))
+    server.wait_until_found("/api/v1/surroundings.glb")
     check_roles(server, state)
     check_errors(server, state)
     check_marks(server)

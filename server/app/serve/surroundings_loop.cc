@@ -14,8 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kPeriod(100);
-constexpr std::chrono::milliseconds kViewersPeriod(250);  // looked for viewers
+constexpr std::chrono::milliseconds kPeriod(100), kPeriodWithoutViewers(1000);
 constexpr int kIdleShare = 10;  // of its time at most one part is spent on making
 
 }  // namespace
@@ -51,10 +50,6 @@ void SurroundingsLoop::Run() {
       wake_.wait(lock);
       continue;
     }
-    if (!has_viewers_()) {
-      wake_.wait_for(lock, kViewersPeriod, [this] { return is_ending_; });
-      continue;
-    }
     const std::shared_ptr<const SceneState> state = std::exchange(wanted_, nullptr);
     lock.unlock();
     const Clock::time_point begin = Clock::now();
@@ -66,7 +61,8 @@ void SurroundingsLoop::Run() {
       spdlog::error("the page does not show markers and robots: {}", error.what());
     }
     const Clock::time_point next =
-        begin + std::max<Clock::duration>(kPeriod, kIdleShare * (Clock::now() - begin));
+        begin + std::max<Clock::duration>(has_viewers_() ? kPeriod : kPeriodWithoutViewers,
+                                          kIdleShare * (Clock::now() - begin));
     lock.lock();
     wake_.wait_until(lock, next, [this] { return is_ending_; });
   }

@@ -1,5 +1,5 @@
 /// Makes what is beside the people, for the page, on a thread of its own: after each change, at
-/// most ten times a second, and only while there are viewers.
+/// most ten times a second, and once a second while there are no viewers.
 #pragma once
 
 #include <condition_variable>
