@@ -187,8 +187,8 @@ Command CompareCommand() {
   Command compare;
   compare.name = "compare";
   compare.about = "Compares two PNG pictures";
-  compare.options("one", values->one, "PNG file");
-  compare.options("other", values->other, "PNG file");
+  compare.options("one", values->one, "the first picture, a PNG file");
+  compare.options("other", values->other, "the second picture, a PNG file");
   compare.options("out", values->out, "picture of the differences, written if there are any");
   compare.options("json", values->json, "print the result as JSON");
   compare.positionals = {"one", "other"};
