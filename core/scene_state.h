@@ -107,6 +107,9 @@ struct PersonState {
   BodyForces forces;
 };
 
+/// Characters of the people of SceneState::ghosts. MVN's are below 256.
+inline constexpr int kFirstGhost = 1'000'000;
+
 /// A reference pose: a second, translucent body.
 struct Ghost {
   PersonState person;
@@ -134,8 +137,6 @@ struct RobotState {
   Eigen::AlignedBox3d bounds;  // of its rendered shapes (render::Renderer::Bounds), world, m;
                                // empty: unknown
 };
-
-inline constexpr int kFirstGhost = 1'000'000;  // MVN's characters are below 256
 
 enum class Liveness {
   kNoData,  // no sample received yet

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 const METRES_PER_NEWTON = 1e-3;  // as in pictures and RViz
 const SHAFT = 0.009, HEAD = 0.024, HEAD_LENGTH = 0.06;  // m; radii, and the length of the head
 const LONGEST_HEAD = 0.6;  // of the arrow
-const OCCLUDED_OPACITY = 0.45;
+export const OCCLUDED_OPACITY = 0.45;  // of what is visible through the body
 const UP = new THREE.Vector3(0, 0, 1);
 
 // Along z, from 0 to 1.

@@ -4,13 +4,12 @@ import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 import { toColor } from './colors.js';
-import { ARROW_SHAPES, ForceArrows, makeArrowMaterials } from './force_arrows.js';
+import { ARROW_SHAPES, ForceArrows, makeArrowMaterials, OCCLUDED_OPACITY } from './force_arrows.js';
 import { request } from './server_api.js';
 import { SkinnedBody } from './skin.js';
 import { readSkin } from './skin_buffer.js';
 import { theme } from './theme.js';
 
-const OCCLUDED_OPACITY = 0.45;  // of markers that are visible through the body
 const SPHERE_DEPTH = 0.11;      // m, by which a sphere counts as nearer than its joint's centre
 const RIM = 1.14;               // radius of the dark rim of the class "high", as a multiple of the sphere's radius
 const CREASE = 0.7;             // rad; edges with a smaller angle are shaded smooth

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/color_difference.h"
+#include "core/system/utf8.h"
 #include "urdf/rig/glb_writer.h"
 
 namespace kinescope::render {
@@ -15,22 +16,10 @@ namespace {
 using nlohmann::json;
 using rig::GlbWriter;
 
-constexpr double kFarthest = 1e6;  // m; a link that is farther away is not where it should be
-
-// Texts that come from other programs may not be UTF-8, and JSON must be.
-std::string Utf8(const std::string& text) {
-  const std::string quoted = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-  return json::parse(quoted).get<std::string>();
-}
-
 std::uint16_t LinearOf(float srgb) {
   constexpr double kMost = 65535;
   return static_cast<std::uint16_t>(
       std::lround(kMost * ToLinear(std::clamp(static_cast<double>(srgb), 0.0, 1.0))));
-}
-
-bool CanBeShown(const Eigen::Isometry3d& pose) {
-  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < kFarthest;
 }
 
 // The meshes of one file. Its root turns the world's axes to those of the format, so that
@@ -66,14 +55,14 @@ class Document {
     if (primitives.empty()) return;
     json& meshes = glb_.document()["meshes"];
     meshes.push_back({{"primitives", std::move(primitives)}});
-    AddNode({{"name", Utf8(name)}, {"mesh", meshes.size() - 1}});
+    AddNode({{"name", PrintableLine(name)}, {"mesh", meshes.size() - 1}});
   }
 
   void AddLabel(const Label& label) {
     AddNode({{"name", "label"},
              {"translation", {label.position.x(), label.position.y(), label.position.z()}},
              {"extras",
-              {{"text", Utf8(label.text)},
+              {{"text", PrintableLine(label.text)},
                {"height", label.height_m},
                {"color", label.color},
                {"opacity", label.opacity}}}});
@@ -81,7 +70,7 @@ class Document {
 
   std::string Write(const std::vector<std::string>& problems) {
     json lines = json::array();
-    for (const std::string& problem : problems) lines.push_back(Utf8(problem));
+    for (const std::string& problem : problems) lines.push_back(PrintableLine(problem));
     json& document = glb_.document();
     if (nodes_[0]["children"].empty()) nodes_[0].erase("children");
     document["nodes"] = std::move(nodes_);
@@ -133,7 +122,7 @@ urdf::Mesh Placed(const urdf::Mesh& mesh, const RobotState& robot) {
     const auto link = static_cast<std::size_t>(mesh.parts[vertex]);
     if (link >= robot.world_from_link.size()) return nullptr;
     const Eigen::Isometry3d& pose = robot.world_from_link[link];
-    return CanBeShown(pose) ? &pose : nullptr;
+    return CanBeDrawn(pose) ? &pose : nullptr;
   };
   urdf::Mesh placed = mesh;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -161,7 +150,7 @@ const SurroundingsGlb::RobotShape& SurroundingsGlb::ShapeOf(const RobotState& ro
                       urdf::ShapeDetail::Robot());
   for (std::size_t link = 0; link < robot.model->links.size(); ++link) {
     for (const urdf::Visual& visual : robot.model->links[link].visuals) {
-      const double opacity = visual.rgba ? visual.rgba->w() : 1;
+      const double opacity = OpacityOf(visual);
       if (opacity <= 0) continue;
       reader.Add(visual, static_cast<int>(link), opacity < 1 ? shape.blended : shape.solid);
     }

@@ -28,6 +28,16 @@ struct VisualMesh {
   std::vector<std::string> problems;      // one line per mesh that cannot be shown
 };
 
+/// 0..1; 1 where the URDF names no colour.
+inline double OpacityOf(const urdf::Visual& visual) { return visual.rgba ? visual.rgba->w() : 1; }
+
+/// Whether a link has a place in a picture: a finite one that is not absurdly far away.
+inline bool CanBeDrawn(const Eigen::Isometry3d& world_from_link) {
+  constexpr double kFarthest = 1e6;  // m
+  return world_from_link.matrix().allFinite() &&
+         world_from_link.translation().cwiseAbs().maxCoeff() < kFarthest;
+}
+
 /// Adds visuals; reads each mesh file once. Use one reader per robot or person.
 class VisualReader {
  public:

@@ -9,18 +9,11 @@ namespace {
 
 constexpr double kHighestShadow = 0.5;  // m above the floor
 
-bool IsTranslucent(const urdf::Visual& visual) { return visual.rgba && visual.rgba->w() < 1; }
-bool IsVisible(const urdf::Visual& visual) { return !visual.rgba || visual.rgba->w() > 0; }
-
 urdf::Mesh RobotShadow() {
   urdf::Mesh mesh;
   mesh.Append(urdf::DiscMesh(24), Eigen::Affine3d::Identity());
   mesh.Paint(0, {0.20f, 0.23f, 0.30f, 0.30f}, 0);
   return mesh;
-}
-
-bool CanBeDrawn(const Eigen::Isometry3d& pose) {
-  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < 1e6;
 }
 
 }  // namespace
@@ -58,7 +51,8 @@ void RobotActors::LoadGroups(const urdf::RobotModel& model, bool is_translucent,
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     bool is_part = false;
     for (const urdf::Visual& visual : model.links[i].visuals) {
-      if (!IsVisible(visual) || IsTranslucent(visual) != is_translucent) continue;
+      const double opacity = OpacityOf(visual);
+      if (opacity <= 0 || (opacity < 1) != is_translucent) continue;
       if (!is_part) links.push_back(i);
       is_part = true;
       reader.Add(visual, static_cast<int>(links.size()) - 1, mesh);

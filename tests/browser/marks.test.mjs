@@ -73,15 +73,16 @@ test('marks that are set while the server cannot be reached are set when it can 
   const set = (await lines()).slice(before);
   assert.deepEqual(set.map(({ text, is_open }) => [text, is_open]), [['grasp', false], ['lift', true]]);
   assert.ok(set[0].at.counter <= seen, 'the sample that was on the screen, not that of the sending');
-  // A server that was started again does not have the moment, but may have another one with its number.
+  // A server that was started again does not have the moment, but may have another one with its number. The page sends no
+  // mark while it waits for this answer, so it knows of the other start before the first mark that could be set.
   await page.route('**/api/v1/mark', (route) => route.abort());
   await page.keyboard.press('3');
   await saidIs(page, /^1 mark waits for the server$/);
   await page.route('**/api/v1/marks?**', async (route) => {
     const answer = await (await route.fetch()).json();
+    await page.unroute('**/api/v1/mark');
     await route.fulfill({ json: { ...answer, run_micros: answer.run_micros + 1 } });
   });
-  await page.unroute('**/api/v1/mark');
   await page.waitForFunction(() => /^Not set while the server was away: “.*”: the server was started again/.test(
     document.getElementById('banner').textContent), null, LONG);
   assert.equal((await lines()).length, before + 2);

@@ -84,7 +84,7 @@ for (const [name, viewport, colorScheme] of [['desktop', DESKTOP, 'light'], ['ph
     const { page, problems, close } = await openPage(home.href, { viewport, colorScheme });
     assert.equal(await page.title(), 'Token needed · Kinescope');
     assert.match(await page.locator('[role=alert]').textContent(), /token missing/);
-    assert.equal(await page.evaluate(() => document.activeElement.id), 'token', 'typed without a click');
+    await page.waitForFunction(() => document.activeElement.id === 'token', null, LONG);  // typed without a click; at the first frame
     const { body, panel } = await page.evaluate(() => ({
       body: getComputedStyle(document.body).backgroundColor,
       panel: getComputedStyle(document.querySelector('main')).backgroundColor }));

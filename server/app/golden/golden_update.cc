@@ -1,6 +1,5 @@
 #include "server/app/golden/golden_update.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -86,7 +85,6 @@ int UpdateSuite(const GoldenSuite& suite, render::Renderer& renderer) {
   for (const FoundCase& found : suite.cases) {
     if (StopRequested()) throw std::runtime_error("interrupted; the cases before are updated");
     std::optional<GoldenDrawing> drawing;
-    std::string why;
     try {
       if (!found.read) throw std::runtime_error(found.error);
       drawing = Draw(*found.read, renderer);
