@@ -10,6 +10,7 @@
 #include "core/scene_state.h"
 #include "core/system/module_loader.h"
 #include "render/camera/camera.h"
+#include "render/contents.h"
 #include "render/image/image.h"
 #include "render/line_drawing.h"
 #include "render/painter.h"
@@ -63,6 +64,11 @@ class Drawing {
   /// Fills `image`, which has its size already, and `drawn`. @throws RenderError.
   virtual void Draw(const SceneState& state, const Camera& camera, const SceneLook& look,
                     int supersample, Image& image, DrawnScene& drawn) = 0;
+  /// What Draw() with these arguments shows in a picture of `width` x `height` px: its things, in
+  /// no order. Those of shadows and floor are none. @throws RenderError.
+  virtual std::vector<SeenObject> See(const SceneState& state, const Camera& camera,
+                                      const SceneLook& look, int supersample, int width,
+                                      int height) = 0;
   /// Box around the rendered shapes of `robot`, world, m; empty if there are none.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
   /// The elements that the newest picture replaces by labelled boxes, one line each.
@@ -74,7 +80,7 @@ struct DrawingModule {
   ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
             TrackedObject, LeftOutPerson, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual,
             urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook,
-            Trail, Ghost, Image, Label, DrawnLine, DrawnScene, Driver, RegionSettings>
+            Trail, Ghost, Image, Label, DrawnLine, DrawnScene, SeenObject, Driver, RegionSettings>
       abi;
   /// `backend`: one of those in the module.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log,

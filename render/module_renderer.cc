@@ -8,6 +8,7 @@
 #include "render/floor_lift.h"
 #include "render/image/matte.h"
 #include "render/multi_view.h"
+#include "render/text_notes.h"
 
 namespace kinescope::render {
 namespace {
@@ -54,6 +55,17 @@ std::vector<DrawnView> ViewsOf(const Camera& camera, const PictureSpec& spec) {
     views.push_back({tiles[i], pane.camera, pane.name, {}, pane.scene});
   }
   return views;
+}
+
+// Calls `use` with the state and the look of a view: the picture's, or its own.
+template <class Use>
+void WithSceneOf(const DrawnView& view, const SceneState& state, const PictureSpec& spec,
+                 const Use& use) {
+  if (view.scene == nullptr) return use(state, spec.look);
+  SceneLook look = spec.look;
+  look.trails = view.scene->trails;
+  look.ghosts = view.scene->ghosts;
+  use(HidesAnything(look) ? Without(view.scene->state, look) : view.scene->state, look);
 }
 
 void PaintLinesOf(Painter& painter, const std::vector<DrawnView>& views, const PictureSpec& spec) {
@@ -127,6 +139,14 @@ void ModuleRenderer::DoRender(Image& image, const SceneState& state, const Camer
   }
 }
 
+std::vector<DrawnView> ModuleRenderer::ViewsAsDrawn(const Camera& camera,
+                                                    const PictureSpec& spec) const {
+  std::vector<DrawnView> views = ViewsOf(camera, spec);
+  KINESCOPE_CHECK(views.size() == drawn_.size());
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].painted = drawn_[i].painted;
+  return views;
+}
+
 std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera& camera,
                                            const PictureSpec& spec, LayerFormat format) {
   const Finite finite = Drawable(state, spec);
@@ -137,14 +157,50 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
     SetSize(below_layer_, spec.width, spec.height);
     DoRender(below_layer_, state, camera, below);
   }
-  std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.spec());
-  KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
-  for (std::size_t i = 0; i < views.size(); ++i) views[i].painted = drawn_[i].painted;
+  const std::vector<DrawnView> views = ViewsAsDrawn(lifted.camera(), lifted.spec());
   const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format,
                                         format == LayerFormat::kPdfPage ? &below_layer_ : nullptr);
   PaintLinesOf(*painter, views, lifted.spec());
   overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
+}
+
+PictureContents ModuleRenderer::DoContents(const SceneState& state, const Camera& camera,
+                                           const PictureSpec& spec) {
+  const Finite finite = Drawable(state, spec);
+  const Lifted lifted(finite.state(), camera, finite.spec());
+  const PictureSpec& used = lifted.spec();
+  const std::vector<DrawnView> views = ViewsAsDrawn(lifted.camera(), used);
+  PictureContents contents;
+  const SceneState shown =
+      HidesAnything(used.look) ? Without(lifted.state(), used.look) : lifted.state();
+  for (const DrawnView& view : views) SeeView(shown, view, used, contents.objects);
+  if (!used.overlays) return contents;
+  TextNotes notes;
+  overlay_.Paint(notes, lifted.state(), views, used);
+  contents.texts = notes.Take();
+  return contents;
+}
+
+void ModuleRenderer::SeeView(const SceneState& state, const DrawnView& drawn,
+                             const PictureSpec& spec, std::vector<SeenObject>& objects) {
+  const Watchdog::Work work(watchdog_, LimitOfPicture(spec), [this, &spec] {
+    return TookTooLong("finding what a picture shows, by back-end " + settings_.backend,
+                       LimitOfPicture(spec));
+  });
+  const Tile& tile = drawn.tile;
+  std::vector<SeenObject> seen;
+  WithSceneOf(drawn, state, spec, [&](const SceneState& shown, const SceneLook& look) {
+    seen = drawing_->See(shown, drawn.camera, look, spec.supersample, tile.width, tile.height);
+  });
+  for (SeenObject& object : seen) {
+    object.view = drawn.name;
+    object.x_px += tile.x;
+    object.y_px += tile.y;
+    object.box.x += tile.x;
+    object.box.y += tile.y;
+    objects.push_back(std::move(object));
+  }
 }
 
 void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
@@ -159,12 +215,9 @@ void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, cons
 
 void ModuleRenderer::DrawView(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
                               Image& image) {
-  if (drawn.scene == nullptr) return DrawWatched(state, drawn, spec, spec.look, image);
-  SceneLook look = spec.look;
-  look.trails = drawn.scene->trails;
-  look.ghosts = drawn.scene->ghosts;
-  DrawWatched(HidesAnything(look) ? Without(drawn.scene->state, look) : drawn.scene->state, drawn,
-              spec, look, image);
+  WithSceneOf(drawn, state, spec, [&](const SceneState& shown, const SceneLook& look) {
+    DrawWatched(shown, drawn, spec, look, image);
+  });
 }
 
 void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,

@@ -31,7 +31,11 @@ class ModuleRenderer : public Renderer {
                 const PictureSpec& spec) override;
   std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                              LayerFormat format) override;
+  PictureContents DoContents(const SceneState& state, const Camera& camera,
+                             const PictureSpec& spec) override;
 
+  // Of the picture drawn last.
+  std::vector<DrawnView> ViewsAsDrawn(const Camera& camera, const PictureSpec& spec) const;
   void RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
                     const PictureSpec& spec);
   void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
@@ -40,6 +44,8 @@ class ModuleRenderer : public Renderer {
                    const SceneLook& look, Image& image);
   // `state`, unless the view has a scene of its own.
   void DrawView(const SceneState& state, DrawnView& drawn, const PictureSpec& spec, Image& image);
+  void SeeView(const SceneState& state, const DrawnView& drawn, const PictureSpec& spec,
+               std::vector<SeenObject>& objects);
 
   // The arguments of a picture, or the part of them that can be rendered.
   class Finite {

@@ -52,6 +52,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
   PaintHead(page, state, spec, backdrop);
   if (spec.scene && spec.parts.legend) {
     Page beside = With(page, backdrop.InksBesideScene());
+    painter.Begin("legend");
     PaintLegendBeside(beside, spec);
   }
   painter.Enter(scene);
@@ -67,6 +68,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
                         const PictureSpec& spec, const Backdrop& backdrop, bool has_time_code) {
+  page.canvas.Begin("names");
   PaintNames(page, state, drawn.camera, spec.parts.names, drawn.painted.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
@@ -75,9 +77,11 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
         has_time_code ? page.Px(kTimeCodeLine) + 1.3 * page.FontPx(kTitleSize) : 0;
     Page over = With(page, backdrop.InksAt(drawn.tile.x + page.right() - margin,
                                            drawn.tile.y + page.bottom - margin - time_code));
+    page.canvas.Begin("scale");
     PaintScaleBar(over, drawn.camera, margin + time_code);
   }
   if (drawn.name.empty()) return;
+  page.canvas.Begin("view");
   // In the upper middle, where no feet are; in the top row below title and lamp.
   const int size = page.FontPx(kSmallSize);
   const bool is_below_title = drawn.tile.y == 0 && (spec.parts.status || !spec.title.empty());
@@ -95,12 +99,15 @@ void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& 
   const double left = 2 * page.Px(kMargin), top = 1.5 * page.Px(kMargin);
   if (spec.parts.title && !page.is_small) {
     Page over = With(page, backdrop.InksAt(left, top));
+    page.canvas.Begin("title");
     PaintTitle(over, state, spec);
   }
   if (spec.parts.status && !HasOnlyRobots(state)) {
     Page over = With(page, backdrop.InksAt(page.width - left, top));
+    page.canvas.Begin("status");
     PaintLamp(over, state);
   }
+  page.canvas.Begin("marks");
   if (spec.parts.marks && !page.is_small) PaintMarks(page, state, spec);
 }
 
@@ -110,6 +117,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
   if (HasOnlyRobots(state)) return;
   if (!page.is_small) {
     if (parts.legend && !spec.scene) {
+      page.canvas.Begin("legend");
       PaintLegend(
           page, spec.legend_content != nullptr ? *spec.legend_content : LegendOf(state, spec.look),
           state.class_limits);
@@ -119,15 +127,18 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
       const double margin = page.Px(kMargin);
       Page over = With(page, backdrop.InksAt(scene.x + page.right() - margin,
                                              scene.y + page.bottom - 1.5 * margin));
+      page.canvas.Begin("time");
       PaintTimeCode(over, state);
     }
     if (parts.plot && spec.load_curves != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
+      page.canvas.Begin("plot");
       PaintPlot(page, *spec.load_curves, state.class_limits, spec.plot_secs,
                 RoomOfPlot(page, 0).top, page.bottom - below);
     }
   }
   if (!parts.banner) return;
+  page.canvas.Begin("banner");
   if (state.liveness == Liveness::kStale) {
     PaintBanner(page, "STALE – last sample " + TimeCode(state.time_code_millis), "STALE");
   } else if (!state.left_out.empty()) {

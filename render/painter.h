@@ -22,6 +22,9 @@ class Painter {
  public:
   virtual ~Painter() = default;
 
+  /// What is painted from here on: "title", "legend", ...; for painters that keep texts.
+  virtual void Begin(std::string_view /*part*/) {}
+
   /// Selects the area to paint: coordinates are then relative to the corner of `part`, and nothing
   /// is painted outside it. Initially the whole picture.
   virtual void Enter(const Tile& part) = 0;

@@ -112,6 +112,13 @@ std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera
   return DoOverlayLayer(state, camera, spec, format);
 }
 
+PictureContents Renderer::Contents(const SceneState& state, const Camera& camera,
+                                   const PictureSpec& spec) {
+  KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread);
+  CheckSpec(spec);
+  return DoContents(state, camera, spec);
+}
+
 const std::vector<std::string>& BackendNames() {
   static const std::vector<std::string> names = {"osmesa", "egl", "egl_device"};
   return names;

@@ -14,6 +14,7 @@
 #include "core/picture_limits.h"
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
+#include "render/contents.h"
 #include "render/image/image.h"
 #include "render/image/tile.h"
 #include "render/legend.h"
@@ -138,6 +139,10 @@ class Renderer {
   std::string OverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                            LayerFormat format);
 
+  /// What the picture rendered last shows. Pass the arguments of that picture.
+  /// @throws RenderError if the driver fails.
+  PictureContents Contents(const SceneState& state, const Camera& camera, const PictureSpec& spec);
+
   /// The smallest axis-aligned box around the rendered shapes of `robot`, world, m; empty if there
   /// are none. Reads its meshes, so that the next picture need not.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
@@ -159,6 +164,8 @@ class Renderer {
                         const PictureSpec& spec) = 0;
   virtual std::string DoOverlayLayer(const SceneState& state, const Camera& camera,
                                      const PictureSpec& spec, LayerFormat format) = 0;
+  virtual PictureContents DoContents(const SceneState& state, const Camera& camera,
+                                     const PictureSpec& spec) = 0;
   struct Owner;  // the thread that made it
   std::unique_ptr<const Owner> owner_;
 };

@@ -40,6 +40,10 @@ ForceArrows::ForceArrows()
   ghost_.SetOpacity(kGhostForceOpacity);
 }
 
+urdf::Side ForceArrows::SideOf(int part) {
+  return part < kPartsOfArrow ? urdf::kRight : urdf::kLeft;
+}
+
 void ForceArrows::Show(const PersonState& person, std::vector<Label>* labels) {
   bool is_any = false;
   for (PartActor* actor : {&solid_, &ghost_}) {

@@ -17,6 +17,9 @@ class ForceArrows {
   /// With `labels`: adds the force of each arrow in N.
   void Show(const PersonState& person, std::vector<Label>* labels);
 
+  /// Whose foot's arrow a part of solid() and ghost() is of.
+  static urdf::Side SideOf(int part);
+
   vtkActor* solid() { return solid_.actor(); }
   /// The ghost is where the solid is.
   void AddTo(PictureRegion& region) const { solid_.AddTo(region); }

@@ -27,6 +27,7 @@
 #include "render/vtk/ground.h"
 #include "render/vtk/log_window.h"
 #include "render/vtk/marker_actors.h"
+#include "render/vtk/number_shader.h"
 #include "render/vtk/object_actors.h"
 #include "render/vtk/person_actors.h"
 #include "render/vtk/pixel_reader.h"
@@ -56,6 +57,28 @@ std::mutex creation;  // GLEW's table of functions and VTK's factories are the p
 std::string TextOf(GLenum name) {
   const auto* found = reinterpret_cast<const char*>(glGetString(name));
   return found != nullptr ? found : "unknown";
+}
+
+constexpr char kShadowName[] = "shadow";
+
+struct NamedActor {
+  vtkActor* actor;
+  std::string name;
+  int character;  // of the person; -1: it belongs to none
+};
+
+// Sums up the places; Seen() divides them.
+void AddPixel(int x, int y, bool is_through, SeenObject& object) {
+  ++(is_through ? object.through : object.pixels);
+  object.x_px += x + 0.5;
+  object.y_px += y + 0.5;
+  Tile& box = object.box;
+  if (IsEmpty(box)) {
+    box = {x, y, 1, 1};
+    return;
+  }
+  const int right = std::max(box.x + box.width, x + 1), left = std::min(box.x, x);
+  box = {left, box.y, right - left, y + 1 - box.y};
 }
 
 class GlDrawing : public Drawing {
@@ -148,6 +171,19 @@ class GlDrawing : public Drawing {
     drawn.lines = lines.Take();
   }
 
+  std::vector<SeenObject> See(const SceneState& state, const Camera& camera, const SceneLook& look,
+                              int supersample, int width, int height) override {
+    const VtkLogScope scope(log_);
+    context_->MakeCurrent();
+    std::vector<Label> ignored;
+    UpdateActors(state, camera, look, height * supersample, ignored);
+    AimCamera(camera);
+    Image numbers;
+    SetSize(numbers, width, height);
+    DrawNumbers(camera, numbers);
+    return Seen(numbers);
+  }
+
  private:
   void UpdateLook(const SceneLook& look, const Camera& camera, std::vector<Label>& labels) {
     const Rgb& background = BackgroundOf(look);
@@ -212,36 +248,108 @@ class GlDrawing : public Drawing {
     return is_changed;
   }
 
-  void ListActors() {
-    people_layer_->RemoveAllViewProps();
-    names_.clear();
-    const auto add = [&](vtkActor* actor, const std::string& name) {
-      people_layer_->AddActor(actor);
-      names_.emplace_back(actor, name);
+  // In the order of rendering.
+  std::vector<NamedActor> Actors() {
+    std::vector<NamedActor> all;
+    const auto add = [&](vtkActor* actor, const std::string& name, int character = -1) {
+      all.push_back({actor, name, character});
     };
-    const auto of = [](const char* what, int id) {
-      return std::string(what) + " of person " + std::to_string(id);
-    };
-    for (const auto& [id, person] : people_) add(person->shadow(), of("shadow", id));
-    for (const auto& robot : robots_) add(robot->shadow(), "shadow of a robot");
+    for (const auto& [id, person] : people_) add(person->shadow(), kShadowName, id);
+    for (const auto& robot : robots_) add(robot->shadow(), kShadowName);
     for (const auto& [id, person] : people_) {
-      for (vtkActor* body : person->bodies()) add(body, of("body", id));
-      add(person->held(), of("load in the hands", id));
+      for (vtkActor* body : person->bodies()) add(body, "body", id);
+      add(person->held(), "load in the hands", id);
     }
     for (vtkActor* object : objects_.actors()) add(object, "objects");
-    for (const auto& robot : robots_) {
-      for (vtkActor* body : robot->bodies()) add(body, "body of a robot");
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const std::string name = "robot " + std::to_string(i + 1);
+      for (vtkActor* body : robots_[i]->bodies()) add(body, name);
     }
     add(markers_->solid(), "markers");
     add(trails_->actor(), "trails");
     for (const auto& [id, person] : people_) {
-      for (vtkActor* ghost : person->ghosts()) add(ghost, of("hidden marks", id));
+      for (vtkActor* ghost : person->ghosts()) add(ghost, "marks", id);
     }
     for (const auto& [id, person] : people_) {
-      for (vtkActor* mark : person->marks()) add(mark, of("marks", id));
+      for (vtkActor* mark : person->marks()) add(mark, "marks", id);
     }
-    add(markers_->blended(), "translucent markers");
+    add(markers_->blended(), "markers");
     for (vtkActor* ghost : ghosts_.actors()) add(ghost, "reference poses");
+    return all;
+  }
+
+  void ListActors() {
+    people_layer_->RemoveAllViewProps();
+    names_ = Actors();
+    for (const NamedActor& each : names_) people_layer_->AddActor(each.actor);
+  }
+
+  // Of a part of an actor; "": it has none of its own.
+  std::string NameOfPart(const NamedActor& named, int part) const {
+    const auto person = people_.find(named.character);
+    return person != people_.end() ? person->second->NameOf(named.actor, part) : "";
+  }
+
+  // The number of each pixel as its colour; nothing and shadows: 0.
+  void DrawNumbers(const Camera& camera, Image& image) {
+    std::vector<std::unique_ptr<NumberShader>> shaders;
+    std::vector<vtkActor*> hidden;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      vtkActor* const actor = names_[i].actor;
+      if (!actor->GetVisibility()) continue;
+      if (names_[i].name == kShadowName) {
+        actor->VisibilityOff();
+        hidden.push_back(actor);
+        continue;
+      }
+      const int first = 1 + kNumbersPerActor * static_cast<int>(i);
+      shaders.push_back(std::make_unique<NumberShader>(actor, first));
+    }
+    std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{0});
+    image.floor = nullptr;
+    for (int y = 0; y < image.height; y += kLargestTile) {
+      for (int x = 0; x < image.width; x += kLargestTile) {
+        const Tile tile{x, y, std::min(kLargestTile, image.width - x),
+                        std::min(kLargestTile, image.height - y)};
+        AimAt(tile, camera, image);
+        tiles_->Begin(tile.width, tile.height, 1);
+        tiles_->PutFloor(image, tile, {tile});
+        tiles_->DrawPeople();
+        pixels_->Read(tiles_->framebuffer(), tile, tile, 1, image);
+      }
+    }
+    for (vtkActor* actor : hidden) actor->VisibilityOn();
+  }
+
+  std::vector<SeenObject> Seen(const Image& numbers) const {
+    std::map<std::pair<int, std::string>, SeenObject> seen;  // by person and name
+    std::map<int, SeenObject*> by_number;
+    std::size_t at = 0;
+    for (int y = 0; y < numbers.height; ++y) {
+      for (int x = 0; x < numbers.width; ++x, at += 4) {
+        const PixelNumber pixel = NumberOf(&numbers.rgba[at]);
+        if (pixel.number == 0) continue;
+        SeenObject*& object = by_number[pixel.number];
+        if (object == nullptr) {
+          const int index = pixel.number - 1;
+          const NamedActor& actor = names_.at(static_cast<std::size_t>(index / kNumbersPerActor));
+          const std::string part = NameOfPart(actor, index % kNumbersPerActor);
+          const std::string& name = part.empty() ? actor.name : part;
+          object = &seen[{actor.character, name}];
+          object->name = name;
+          object->character = actor.character;
+        }
+        AddPixel(x, y, pixel.is_through, *object);
+      }
+    }
+    std::vector<SeenObject> all;
+    for (auto& [key, object] : seen) {
+      const double count = static_cast<double>(object.pixels + object.through);
+      object.x_px /= count;
+      object.y_px /= count;
+      all.push_back(std::move(object));
+    }
+    return all;
   }
 
   std::vector<SpaceLine> Lines(const Camera& camera) const {
@@ -303,8 +411,10 @@ class GlDrawing : public Drawing {
     if (differs.first == whole.rgba.end()) return;
     const std::ptrdiff_t pixel = (differs.first - whole.rgba.begin()) / 4;
     std::string said;
-    for (const auto& [actor, name] : names_) {
+    for (const auto& [actor, what, character] : names_) {
       if (!actor->GetVisibility()) continue;
+      const std::string name =
+          character < 0 ? what : what + " of person " + std::to_string(character);
       actor->VisibilityOff();
       draw(without);
       actor->VisibilityOn();
@@ -437,10 +547,10 @@ class GlDrawing : public Drawing {
   Rgb shadow_color_ = {};
   std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
   bool is_listed_ = false;
-  std::vector<std::unique_ptr<RobotActors>> robots_;      // in the order of the state
-  std::unique_ptr<RobotActors> spare_;                    // measured, not drawn yet
-  std::vector<std::pair<vtkActor*, std::string>> names_;  // of the people layer, for people
-  int checkable_ = 0;                                     // pictures
+  std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
+  std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
+  std::vector<NamedActor> names_;                     // of the people layer, for people
+  int checkable_ = 0;                                 // pictures
   bool is_software_ = false;
 };
 

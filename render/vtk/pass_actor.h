@@ -20,6 +20,7 @@ class PassActor : public vtkOpenGLActor {
   static PassActor* New();
 
   void SetPass(Pass pass) { pass_ = pass; }
+  Pass pass() const { return pass_; }
   void Render(vtkRenderer* renderer, vtkMapper* mapper) override;
 
  private:

@@ -173,6 +173,23 @@ std::vector<vtkActor*> PersonActors::marks() {
   return actors;
 }
 
+std::string PersonActors::NameOf(const vtkActor* actor, int part) {
+  const auto is_of = [&](SphereActor& spheres) {
+    const auto actors = spheres.actors();
+    return std::find(actors.begin(), actors.end(), actor) != actors.end();
+  };
+  if (is_of(spheres_) || is_of(ghost_spheres_)) {
+    return sphere_names_.at(static_cast<std::size_t>(part));
+  }
+  if (actor == forces_.solid() || actor == forces_.ghost()) {
+    return ForceArrows::SideOf(part) == urdf::kRight ? "force on the right foot"
+                                                     : "force on the left foot";
+  }
+  if (actor != marks_.actor() && actor != ghost_marks_.actor()) return "";
+  if (part == kComRing || part == kComLine) return "line of the centre of mass";
+  return part < kSupportEdge ? "centre of pressure" : "support polygon";
+}
+
 // Made when they are asked for: most pictures have none. @return whether there are others now.
 bool PersonActors::UpdateAxes(const PersonState& person, const SceneLook& look) {
   bool is_changed = false;
@@ -234,12 +251,14 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
   const double height = person.model->human.skeleton.height;
   const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   looks_.clear();
+  sphere_names_.clear();
   for (const JointLoad& load : person.loads) {
     // The last one is for the centre of mass.
     if (!has_spheres || looks_.size() + 1 == kSphereCapacity) break;
     looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
                       SphereDepth(load.joint, height), ColorOf(load.load_class),
                       RimOf(load.load_class)});
+    sphere_names_.emplace_back(urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name);
   }
   for (PartActor* marks : {&marks_, &ghost_marks_}) {
     const bool is_ghost = marks == &ghost_marks_;
@@ -262,7 +281,10 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
     }
     marks->Commit();
   }
-  if (person.com) looks_.push_back({*person.com, 0.034 * size, 0.068 * size, kComColor, 0});
+  if (person.com) {
+    looks_.push_back({*person.com, 0.034 * size, 0.068 * size, kComColor, 0});
+    sphere_names_.emplace_back("centre of mass");
+  }
   double largest = 0;
   for (const SphereLook& look : looks_) largest = std::max(largest, look.radius);
   const bool is_small =

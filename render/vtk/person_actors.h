@@ -45,6 +45,9 @@ class PersonActors {
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
+  /// Of a part of one of these actors as it was shown last: "left_knee", "centre of mass"; "": it
+  /// has no name of its own.
+  std::string NameOf(const vtkActor* actor, int part);
   /// Of all of them that are visible.
   void AddTo(PictureRegion& region) const;
 
@@ -64,6 +67,7 @@ class PersonActors {
   PartActor shadow_, held_, ghost_marks_, marks_;
   SphereActor ghost_spheres_, spheres_;
   std::vector<SphereLook> looks_;
+  std::vector<std::string> sphere_names_;  // of each of looks_
 };
 
 }  // namespace kinescope::render

@@ -37,6 +37,10 @@ class FakeRenderer : public render::Renderer {
                              render::LayerFormat) override {
     return "over picture " + std::to_string(drawn_);
   }
+  render::PictureContents DoContents(const SceneState&, const render::Camera&,
+                                     const render::PictureSpec&) override {
+    return {};
+  }
 
   const OnDraw on_draw_;
   std::uint8_t drawn_ = 0;
