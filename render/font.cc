@@ -18,8 +18,12 @@ struct Font::Face {
   }
 };
 
+std::filesystem::path FontPath(const std::string& file_name) {
+  return std::filesystem::path(KINESCOPE_FONT_FOLDER) / file_name;
+}
+
 Font::Font(const std::string& file_name) : file_name_(file_name), face_(std::make_unique<Face>()) {
-  const std::string path = std::string(KINESCOPE_FONT_FOLDER) + "/" + file_name;
+  const std::string path = FontPath(file_name);
   if (FT_Init_FreeType(&face_->library) != 0 ||
       FT_New_Face(face_->library, path.c_str(), 0, &face_->face) != 0) {
     throw RenderError("cannot open the font " + path + "; install Debian's fonts-dejavu-core");

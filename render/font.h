@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +19,9 @@ struct Glyph {
   double advance = 0;                  // px
   std::vector<std::uint8_t> coverage;  // (height, width)
 };
+
+/// Where the font of this file name is. Whether it is there is not looked at.
+std::filesystem::path FontPath(const std::string& file_name);
 
 class Font {
  public:

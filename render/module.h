@@ -23,8 +23,9 @@ namespace kinescope::render {
 
 /// Description that OpenGL gives of itself.
 struct Driver {
-  std::string renderer;    // GL_RENDERER
-  std::string gl_version;  // GL_VERSION
+  std::string renderer;       // GL_RENDERER
+  std::string gl_version;     // GL_VERSION
+  std::string scene_library;  // such as "VTK 9.1.0"
 };
 
 /// Whether a driver of this GL_RENDERER draws on the processor.

@@ -89,8 +89,8 @@ ModuleRenderer::ModuleRenderer(const DrawingModule& module, RendererSettings set
 
 RendererInfo ModuleRenderer::info() const {
   const Driver driver = drawing_->driver();
-  return {settings_.backend, driver.renderer, driver.gl_version, IsSoftware(driver.renderer),
-          settings_.note};
+  return {settings_.backend,           driver.renderer, driver.gl_version,
+          IsSoftware(driver.renderer), settings_.note,  driver.scene_library};
 }
 
 std::vector<std::string> ModuleRenderer::problems() const {

@@ -114,7 +114,8 @@ struct RendererInfo {
   std::string renderer;    // GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string gl_version;  // GL_VERSION
   bool is_software = false;
-  std::string note;  // RendererSettings::note
+  std::string note;                // RendererSettings::note
+  std::string scene_library = {};  // such as "VTK 9.1.0"
 };
 
 /// Create, use and destroy it on one thread: a GL context belongs to one thread.

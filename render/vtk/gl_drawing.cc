@@ -7,6 +7,7 @@
 #include <vtkNew.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkRendererCollection.h>
+#include <vtkVersion.h>
 
 #include <algorithm>
 #include <array>
@@ -128,7 +129,8 @@ class GlDrawing : public Drawing {
 
   Driver driver() const override {
     context_->MakeCurrent();
-    return {TextOf(GL_RENDERER), TextOf(GL_VERSION)};
+    return {TextOf(GL_RENDERER), TextOf(GL_VERSION),
+            std::string("VTK ") + vtkVersion::GetVTKVersion()};
   }
 
   Eigen::AlignedBox3d Bounds(const RobotState& robot) override {

@@ -69,4 +69,17 @@ YAML::Node LoadYaml(const std::string& path) {
   return ParseYaml(text);
 }
 
+std::string ToYaml(const std::vector<YamlLine>& lines) {
+  YAML::Emitter yaml;
+  yaml << YAML::BeginMap;
+  for (const YamlLine& line : lines) {
+    yaml << YAML::Key << line.name << YAML::Value;
+    if (line.is_list) yaml << YAML::BeginSeq;
+    for (const std::string& text : line.texts) yaml << text;
+    if (line.is_list) yaml << YAML::EndSeq;
+  }
+  yaml << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
 }  // namespace kinescope::options

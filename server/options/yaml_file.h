@@ -1,11 +1,13 @@
-/// Reads YAML files. Their content is untrusted: size and depth are bounded, and there are no
-/// aliases, with which a short file stands for a very long one. Pure functions; any thread.
+/// Reads YAML files, and writes simple ones. Their content is untrusted: size and depth are
+/// bounded, and there are no aliases, with which a short file stands for a very long one. Pure
+/// functions; any thread.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace kinescope::options {
 
@@ -16,5 +18,14 @@ YAML::Node ParseYaml(const std::string& text);
 
 /// As ParseYaml(). @throws YAML::BadFile, too, if `path` cannot be read.
 YAML::Node LoadYaml(const std::string& path);
+
+struct YamlLine {
+  std::string name;
+  std::vector<std::string> texts;
+  bool is_list = false;  // else there is one text
+};
+
+/// A map with these members, in this order, each text quoted where it must be.
+std::string ToYaml(const std::vector<YamlLine>& lines);
 
 }  // namespace kinescope::options

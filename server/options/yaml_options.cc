@@ -47,6 +47,17 @@ void YamlOptions::Load(const Read& read) {
 
 YamlOptions::~YamlOptions() = default;
 
+std::optional<Found> YamlOptions::LookForList(const std::string& name) const {
+  const YAML::Node value = root_->node[name];
+  if (!value || !value.IsSequence() || value.size() == 0) return Look(name);
+  Found found{"", PlaceOf(path_, value)};
+  for (const YAML::Node& each : value) {
+    if (!each.IsScalar()) throw UsageError(found.origin + name + ": expected a list of values");
+    found.texts.push_back(each.Scalar());
+  }
+  return found;
+}
+
 std::optional<Found> YamlOptions::Look(const std::string& name) const {
   const YAML::Node value = root_->node[name];
   if (!value) return std::nullopt;
@@ -73,7 +84,12 @@ void YamlOptions::SetAll(OptionList& options) const {
                                  PlaceOf(path_, entry.first), key,
                                  SuggestionFor(key, options.Names())));
   }
-  SetFrom([this](const std::string& name) { return Look(name); }, Channel::kFile, options);
+  const auto look = [&](const std::string& name) {
+    const Option* const option = options.Find(name);
+    const bool is_repeatable = option != nullptr && option->value->is_repeatable();
+    return is_repeatable ? LookForList(name) : Look(name);
+  };
+  SetFrom(look, Channel::kFile, options);
 }
 
 }  // namespace kinescope::options

@@ -20,6 +20,9 @@ class YamlOptions {
   /// The text of `name`, and "FILE:LINE: ". @throws UsageError where it is not one value.
   std::optional<Found> Look(const std::string& name) const;
 
+  /// The same for an option that may be given several times: a list has its texts.
+  std::optional<Found> LookForList(const std::string& name) const;
+
   /// Sets `options` that were not given before, and refuses a name that none of them has.
   /// @throws UsageError naming file, line, name and the nearest one.
   void SetAll(OptionList& options) const;

@@ -4,15 +4,18 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "core/system/errors.h"
 #include "render/multi_view.h"
+#include "server/options/option_json.h"
 #include "server/options/yaml_options.h"
 #include "server/picture/render_planner.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
+#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 namespace {
@@ -96,6 +99,27 @@ std::vector<render::SphereInPicture> SpheresOf(const RenderRequest& request) {
   return all;
 }
 
+// Of "FILE:3: time".
+int LineOf(const std::string& given_as, const fs::path& yaml) {
+  const std::size_t at = yaml.string().size() + 1;
+  return at < given_as.size() ? std::max(1, std::atoi(given_as.c_str() + at)) : 1;
+}
+
+PictureFacts FactsOf(const RenderRequest& request,
+                     const std::vector<render::SphereInPicture>& spheres,
+                     render::Renderer& renderer) {
+  const render::PictureSpec& spec = request.spec;
+  const render::PictureContents contents =
+      renderer.Contents(request.state, request.camera, request.spec);
+  PictureFacts facts;
+  facts.objects = ObjectFactsOf(contents, spheres);
+  facts.texts = TextFactsOf(contents);
+  facts.has_floor = spec.look.floor;
+  if (spec.panes.empty()) facts.cameras.push_back({"", request.camera});
+  for (const render::Pane& pane : spec.panes) facts.cameras.push_back({pane.name, pane.camera});
+  return facts;
+}
+
 }  // namespace
 
 GoldenCase::GoldenCase()
@@ -124,6 +148,12 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   golden_case.List(list);
   options::YamlOptions(yaml.string()).SetAll(list);
   for (const std::string& warning : list.warnings()) spdlog::warn(warning);
+  for (const options::Option& option : list) {
+    if (option.given_as.empty()) continue;
+    golden_case.lines[option.name] = LineOf(option.given_as, yaml);
+    if (option.name == "why") continue;
+    golden_case.given[option.name] = options::ToJson(*option.value);
+  }
   if (golden_case.source->empty()) throw UsageError(yaml.string() + ": source is missing");
   if (*golden_case.view.loads == render::LoadsShown::kSkin) {
     throw UsageError(yaml.string() +
@@ -136,6 +166,19 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   WrenchFileValue& wrenches = golden_case.loads.measured.wrenches;
   if (wrenches.IsGiven()) wrenches = (yaml.parent_path() / *wrenches).string();
   return golden_case;
+}
+
+std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
+  const SourceIdentity source = IdentityOf(*golden_case.source);
+  std::vector<InputFact> inputs = {
+      {"source", source.name, source.digest ? source.digest->sha256 : ""}};
+  GoldenCase copy = golden_case;  // a list refers to values that can be set
+  options::OptionList list;
+  copy.List(list);
+  for (const auto& input : options::InputsOf(list)) {
+    inputs.push_back({input.at("option"), input.at("name"), input.at("sha256")});
+  }
+  return inputs;
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
@@ -152,6 +195,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   GoldenDrawing drawing;
   drawing.image = renderer.Render(request.state, request.camera, request.spec);
   drawing.spheres = SpheresOf(request);
+  drawing.facts = FactsOf(request, drawing.spheres, renderer);
   if (request.spec.overlays && request.spec.parts.frame_code &&
       *golden_case.state != Liveness::kNoData) {
     drawing.frame_code = {request.state.counter, request.state.time_code_millis};

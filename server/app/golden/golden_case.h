@@ -12,6 +12,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,8 @@
 #include "render/frame_code.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
+#include "server/app/golden/golden_lock.h"
+#include "server/app/golden/picture_facts.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_options.h"
 
@@ -38,6 +42,9 @@ struct GoldenCase {
   ViewOptions view;
   PersonOptions person;
   LoadOptions loads;
+  /// What the file sets, but for `why`, as it sets it.
+  std::map<std::string, nlohmann::json> given;
+  std::map<std::string, int> lines;  // of the file, by key
 
   void List(options::OptionList& option);
 };
@@ -45,11 +52,15 @@ struct GoldenCase {
 /// @throws UsageError naming file, line and key.
 GoldenCase LoadGoldenCase(const std::filesystem::path& yaml);
 
+/// The files that the case reads. @throws SourceError if one cannot be read.
+std::vector<InputFact> InputsOf(const GoldenCase& golden_case);
+
 struct GoldenDrawing {
   render::Image image;
   /// Several views: "<view>/<joint>", those that lie wholly within their view.
   std::vector<render::SphereInPicture> spheres;
   std::optional<render::FrameCode> frame_code;  // what the picture must contain
+  PictureFacts facts;
 };
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer);

@@ -7,24 +7,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/system/sha256.h"
 #include "core/system/starts_with.h"
 #include "core/system/stop_signal.h"
+#include "core/system/words.h"
 #include "render/image/compare.h"
-#include "render/image/new_file.h"
 #include "render/image/png_file.h"
-#include "server/app/golden/golden_objects.h"
+#include "server/app/golden/golden_composite.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-// What is accepted of a case.
-struct Accepted {
-  render::Image image;
-  std::vector<render::SphereInPicture> spheres;
-};
 
 // What Git LFS leaves in the place of a file that it has not fetched.
 bool IsLfsPointer(const fs::path& path) {
@@ -33,147 +28,252 @@ bool IsLfsPointer(const fs::path& path) {
   return StartsWith(begin, "version https://git-lfs");
 }
 
-std::string UpdateCommand(const GoldenSuite& suite, const FoundCase& found) {
-  return fmt::format("kinescope golden update {} {}", suite.folder.string(), found.name);
-}
+class CaseCheck {
+ public:
+  CaseCheck(const GoldenSuite& suite, const FoundCase& found, const CheckSettings& settings,
+            const std::map<std::string, std::string>& environment)
+      : suite_(suite), found_(found), settings_(settings), environment_(environment) {
+    verdict_.name = found.name;
+    verdict_.file = suite.CaseFileOf(found);
+    if (found.read) verdict_.why = *found.read->why;
+  }
 
-/// @throws std::runtime_error with the file, the reason and the way out.
-Accepted ReadAccepted(const GoldenSuite& suite, const FoundCase& found) {
-  const fs::path picture = suite.PictureOf(found), objects = suite.ObjectsOf(found);
-  for (const fs::path& file : {picture, objects}) {
-    if (!fs::exists(file)) {
-      throw std::runtime_error(
-          fmt::format("{}: no such file; look at the new picture, then run `{}`", file.string(),
-                      UpdateCommand(suite, found)));
+  /// @throws std::runtime_error if a picture cannot be written.
+  CaseVerdict Run(render::Renderer& renderer) {
+    try {
+      if (!found_.read) throw std::runtime_error(found_.error);
+      drawing_ = Draw(*found_.read, renderer);
+      verdict_.now = Describe(*found_.read, drawing_, environment_);
+    } catch (const std::exception& error) {
+      return NotCompared((found_.read ? verdict_.file.string() + ": " : "") + error.what());
     }
-    if (IsLfsPointer(file)) {
-      throw std::runtime_error(
-          file.string() + ": a pointer of Git LFS, whose file is not here; run `git lfs pull`");
+    const AcceptedCase* const accepted = suite_.AcceptedOf(found_);
+    if (accepted == nullptr) {
+      WriteDrawing();
+      return NotCompared(
+          fmt::format("{}: not accepted yet; look at {}, then run `kinescope golden accept {} {}`",
+                      verdict_.file.string(), NewPictureOf(settings_.out, found_.name).string(),
+                      settings_.out.string(), found_.name));
+    }
+    Compare(*accepted);
+    return std::move(verdict_);
+  }
+
+ private:
+  CaseVerdict NotCompared(std::string reason) {
+    verdict_.outcome = Outcome::kNotCompared;
+    verdict_.reason = std::move(reason);
+    return std::move(verdict_);
+  }
+
+  void Add(FindingKind kind, std::string text) {
+    verdict_.findings.push_back({kind, kWholePicture, "", "", 0, std::move(text)});
+  }
+
+  void Compare(const AcceptedCase& accepted) {
+    const AcceptedCase& now = *verdict_.now;
+    verdict_.accepted_pixels = accepted.pixels_sha256;
+    verdict_.changes = ChangesBetween(accepted, now);
+    verdict_.is_byte_equal = accepted.pixels_sha256 == now.pixels_sha256;
+    verdict_.findings = kinescope::app::Compare(accepted.facts, now.facts);
+    AddObjectLayer(accepted);
+    for (const std::string& change : verdict_.changes.inputs) {
+      verdict_.findings.push_back({FindingKind::kInput, "input", "", "", 0, "input " + change});
+    }
+    CheckDrawing();
+    const std::optional<render::Image> picture = ReadAccepted(accepted);
+    if (!verdict_.is_byte_equal) ComparePixels(accepted, picture);
+    AddEnvironment();
+    SortWorstFirst(verdict_.findings);
+    if (verdict_.findings.empty()) return;
+    verdict_.line = LineThatExplains();
+    verdict_.outcome = Outcome::kDiffers;
+    WriteDrawing();
+    if (!picture || verdict_.is_byte_equal) return;
+    const render::Image difference = render::DiffImage(*picture, drawing_.image);
+    render::WritePng(DifferenceOf(settings_.out, found_.name), difference);
+    if (picture->width != now.width || picture->height != now.height) return;
+    render::WritePng(CompositeOf(settings_.out, found_.name),
+                     Composite(verdict_, *picture, drawing_.image, difference));
+  }
+
+  // The key that was changed, or that decides what has changed.
+  int LineThatExplains() const {
+    const auto line_of = [&](const std::string& key) {
+      const auto line = found_.read->lines.find(key);
+      return line == found_.read->lines.end() ? 1 : line->second;
+    };
+    if (!verdict_.changes.options.empty()) {
+      const std::string& change = verdict_.changes.options.front();
+      return line_of(change.substr(0, change.find(':')));
+    }
+    switch (verdict_.findings.front().kind) {
+      case FindingKind::kCamera: return line_of("camera");
+      case FindingKind::kFloor: return line_of("floor");
+      case FindingKind::kInput: return line_of("source");
+      case FindingKind::kPicture: return line_of("size");
+      case FindingKind::kClass:
+      case FindingKind::kLoad: return line_of("time");
+      default: return 1;
     }
   }
-  return {render::ReadPng(picture), ReadObjects(objects)};
-}
 
-std::string SizeText(const render::Image& image) {
-  return fmt::format("{}x{}", image.width, image.height);
-}
+  void AddObjectLayer(const AcceptedCase& accepted) {
+    const std::size_t all =
+        accepted.facts.objects.size() + accepted.facts.texts.size() + accepted.facts.cameras.size();
+    std::size_t changed = verdict_.findings.size();
+    verdict_.layers.push_back({"objects",
+                               changed == 0
+                                   ? fmt::format("all {} the same", all)
+                                   : Counted(changed, "change") + fmt::format(" of {}", all),
+                               fmt::format("0; {:.1f} px", kPlaceLimitPx), changed == 0});
+  }
 
-// The most telling first: what it shows, then how it looks.
-std::vector<std::string> Differences(const Accepted& accepted, const GoldenDrawing& drawing) {
-  std::vector<std::string> problems = FindObjectChanges(accepted.spheres, drawing.spheres);
-  for (std::string& mismatch : render::FindSphereMismatches(drawing.image, drawing.spheres)) {
-    problems.push_back(std::move(mismatch));
+  // What the picture itself says against the state that it was drawn from.
+  void CheckDrawing() {
+    for (std::string& wrong : render::FindSphereMismatches(drawing_.image, drawing_.spheres)) {
+      Add(FindingKind::kClass, std::move(wrong));
+    }
+    if (!drawing_.frame_code || render::ReadFrameCode(drawing_.image) == drawing_.frame_code) {
+      return;
+    }
+    Add(FindingKind::kText,
+        fmt::format("frame code: expected sample {}, {} ms", drawing_.frame_code->counter,
+                    drawing_.frame_code->time_code_millis));
   }
-  if (drawing.frame_code && !(render::ReadFrameCode(drawing.image) == drawing.frame_code)) {
-    problems.push_back(fmt::format("frame code: expected sample {}, {} ms",
-                                   drawing.frame_code->counter,
-                                   drawing.frame_code->time_code_millis));
-  }
-  const render::Comparison comparison = render::Compare(accepted.image, drawing.image);
-  if (!comparison.same_size) {
-    problems.push_back(fmt::format("size of the picture: expected {}, found {}",
-                                   SizeText(accepted.image), SizeText(drawing.image)));
-  } else if (!comparison.equal()) {
-    problems.push_back(render::Describe(comparison, drawing.image));
-  }
-  return problems;
-}
 
-void WriteDrawing(const fs::path& out, const std::string& name, const GoldenDrawing& drawing) {
-  fs::create_directories(out);
-  const std::string base = out / name;
-  render::WritePng(base + ".actual.png", drawing.image);
-  render::WriteNewFile(base + ".objects.json", ToJson(drawing.spheres));
-}
-
-/// @throws std::exception why the case cannot be drawn.
-GoldenDrawing DrawingOf(const FoundCase& found, render::Renderer& renderer) {
-  if (!found.read) throw std::runtime_error(found.error);
-  return Draw(*found.read, renderer);
-}
-
-CaseVerdict Check(const GoldenSuite& suite, const FoundCase& found, const CheckSettings& settings,
-                  render::Renderer& renderer) {
-  CaseVerdict verdict;
-  verdict.name = found.name;
-  verdict.file = suite.folder / (found.name + ".yaml");
-  if (found.read) verdict.why = *found.read->why;
-  const auto cannot = [&](const std::exception& error) {
-    const std::string where = found.read ? verdict.file.string() + ": " : "";  // else it has it
-    verdict.outcome = Outcome::kNotCompared;
-    verdict.problems = {where + error.what()};
-    return verdict;
-  };
-  std::optional<GoldenDrawing> drawing;
-  try {
-    drawing = DrawingOf(found, renderer);
-  } catch (const std::exception& error) {
-    return cannot(error);
+  // nullopt: it is not there, or not what golden.lock says; then that is noted or found.
+  std::optional<render::Image> ReadAccepted(const AcceptedCase& accepted) {
+    const fs::path path = suite_.PictureOf(found_);
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+      verdict_.notes.push_back(path.string() + ": not here; compared by golden.lock alone");
+      return std::nullopt;
+    }
+    if (IsLfsPointer(path)) {
+      verdict_.notes.push_back(path.string() +
+                               ": a pointer of Git LFS, compared by golden.lock alone; `git lfs "
+                               "pull` fetches the picture");
+      return std::nullopt;
+    }
+    try {
+      render::Image image = render::ReadPng(path);
+      if (PixelsHash(image) == accepted.pixels_sha256) return image;
+      Add(FindingKind::kPicture, path.string() +
+                                     ": is not the picture that golden.lock names; restore it, or "
+                                     "accept a new one");
+      return image;
+    } catch (const std::exception& error) {
+      Add(FindingKind::kPicture, error.what());
+      return std::nullopt;
+    }
   }
-  std::optional<Accepted> accepted;
-  try {
-    accepted = ReadAccepted(suite, found);
-  } catch (const std::exception& error) {
-    WriteDrawing(settings.out, found.name, *drawing);
-    return cannot(error);
+
+  void ComparePixels(const AcceptedCase& accepted, const std::optional<render::Image>& picture) {
+    const AcceptedCase& now = *verdict_.now;
+    if (now.width != accepted.width || now.height != accepted.height) {
+      return Add(FindingKind::kPicture,
+                 fmt::format("size of the picture: expected {}x{}, found {}x{}", accepted.width,
+                             accepted.height, now.width, now.height));
+    }
+    if (!picture) {
+      return Add(FindingKind::kPixels,
+                 "pixels differ from those of golden.lock; how many is not known without the "
+                 "accepted picture");
+    }
+    const render::Comparison pixels = render::Compare(*picture, drawing_.image);
+    verdict_.layers.push_back({"pixels", render::Describe(pixels, drawing_.image),
+                               fmt::format("{} levels", render::kChannelTolerance),
+                               pixels.equal()});
+    if (!pixels.equal()) return Add(FindingKind::kPixels, verdict_.layers.back().found);
+    if (settings_.is_strict) {
+      Add(FindingKind::kPixels, "not byte-equal: " + verdict_.layers.back().found);
+    }
   }
-  verdict.problems = Differences(*accepted, *drawing);
-  if (verdict.problems.empty()) return verdict;
-  verdict.outcome = Outcome::kDiffers;
-  WriteDrawing(settings.out, found.name, *drawing);
-  render::WritePng((settings.out / found.name).string() + ".diff.png",
-                   render::DiffImage(accepted->image, drawing->image));
-  return verdict;
-}
+
+  void AddEnvironment() {
+    for (const std::string& change : verdict_.changes.environment) {
+      const std::string text = "weaker check, in another environment: " + change;
+      verdict_.notes.push_back(text);
+      if (settings_.is_strict) Add(FindingKind::kPicture, text);
+    }
+  }
+
+  void WriteDrawing() {
+    fs::create_directories(settings_.out);
+    const fs::path path = NewPictureOf(settings_.out, found_.name);
+    render::WritePng(path, drawing_.image);
+    verdict_.now->file_sha256 = DigestOf(path).sha256;
+  }
+
+  const GoldenSuite& suite_;
+  const FoundCase& found_;
+  const CheckSettings& settings_;
+  const std::map<std::string, std::string>& environment_;
+  GoldenDrawing drawing_;
+  CaseVerdict verdict_;
+};
 
 void StopIfRequested(std::size_t finished, std::size_t all) {
   if (!StopRequested()) return;
   throw std::runtime_error(fmt::format("interrupted after {} of {} cases", finished, all));
 }
 
+CaseVerdict OfNoCase(const std::string& name, const fs::path& file, const std::string& way_out) {
+  CaseVerdict verdict;
+  verdict.name = name;
+  verdict.file = file;
+  verdict.outcome = Outcome::kDiffers;
+  verdict.findings = {{FindingKind::kPicture, kWholePicture, "", "", 0,
+                       "belongs to no case: there is no .yaml of this name; " + way_out}};
+  return verdict;
+}
+
 }  // namespace
 
-const char* Name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSame: return "same";
-    case Outcome::kDiffers: return "differs";
-    case Outcome::kNotCompared: break;
-  }
-  return "not compared";
+fs::path NewPictureOf(const fs::path& out, const std::string& name) {
+  return out / (name + ".actual.png");
+}
+
+fs::path CompositeOf(const fs::path& out, const std::string& name) {
+  return out / (name + ".compare.png");
+}
+
+fs::path DifferenceOf(const fs::path& out, const std::string& name) {
+  return out / (name + ".diff.png");
+}
+
+AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawing,
+                      const std::map<std::string, std::string>& environment) {
+  AcceptedCase described;
+  described.pixels_sha256 = PixelsHash(drawing.image);
+  described.width = drawing.image.width;
+  described.height = drawing.image.height;
+  described.options = golden_case.given;
+  described.inputs = InputsOf(golden_case);
+  described.environment = environment;
+  described.facts = drawing.facts;
+  return described;
 }
 
 void CheckSuite(const GoldenSuite& suite, const CheckSettings& settings, render::Renderer& renderer,
                 const std::function<void(const CaseVerdict&)>& report) {
+  const auto environment = EnvironmentOf(renderer.info());
   std::size_t finished = 0;
   for (const FoundCase& found : suite.cases) {
     StopIfRequested(finished++, suite.cases.size());
     const Clock::time_point begin = Clock::now();
-    CaseVerdict verdict = Check(suite, found, settings, renderer);
+    CaseVerdict verdict = CaseCheck(suite, found, settings, environment).Run(renderer);
     verdict.secs = std::chrono::duration<double>(Clock::now() - begin).count();
     report(verdict);
   }
   for (const fs::path& orphan : suite.orphans) {
-    CaseVerdict verdict;
-    verdict.name = orphan;
-    verdict.file = suite.folder / orphan;
-    verdict.outcome = Outcome::kDiffers;
-    verdict.problems = {
-        "belongs to no case: there is no .yaml of this name; remove it, or write the case"};
-    report(verdict);
+    report(OfNoCase(orphan, suite.folder / orphan, "remove it, or write the case"));
   }
-}
-
-void OutcomeCounts::Add(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSame: ++same; break;
-    case Outcome::kDiffers: ++different; break;
-    case Outcome::kNotCompared: ++not_compared; break;
+  for (const std::string& name : suite.unknown_locks) {
+    report(OfNoCase("golden.lock: " + name, suite.lock_file(),
+                    "run `kinescope golden update` to remove the entry, or write the case"));
   }
-}
-
-int OutcomeCounts::ExitCode() const {
-  if (not_compared > 0) return 2;
-  return different > 0 ? 1 : 0;
 }
 
 }  // namespace kinescope::app

@@ -3,52 +3,33 @@
 /// compared.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "render/renderer.h"
 #include "server/app/golden/golden_suite.h"
+#include "server/app/golden/golden_verdict.h"
 
 namespace kinescope::app {
 
-enum class Outcome {
-  kSame,
-  kDiffers,
-  kNotCompared,  // nothing is known of the picture: not readable, not accepted yet
-};
-
-/// "same", "differs", "not compared".
-const char* Name(Outcome outcome);
-
-struct CaseVerdict {
-  std::string name;  // of the case, or of a file that belongs to none
-  std::string why;   // purpose of the case
-  std::filesystem::path file;
-  Outcome outcome = Outcome::kSame;
-  std::vector<std::string> problems;  // the most telling first; empty if kSame
-  double secs = 0;
-};
-
 struct CheckSettings {
-  std::filesystem::path out;  // folder for the pictures of cases that differ
+  std::filesystem::path out;  // folder for the pictures of cases that are not the same
+  bool is_strict = false;     // only equal bytes are the same
 };
 
-/// Calls `report` with every verdict, in the order of the suite, orphans last.
+/// Calls `report` with every verdict, in the order of the suite, what belongs to no case last.
 /// @throws std::runtime_error if a picture cannot be written, or when interrupted.
 void CheckSuite(const GoldenSuite& suite, const CheckSettings& settings, render::Renderer& renderer,
                 const std::function<void(const CaseVerdict&)>& report);
 
-/// How many verdicts there are of each outcome.
-struct OutcomeCounts {
-  std::size_t same = 0, different = 0, not_compared = 0;
+/// The pictures of a case in the folder of a run.
+std::filesystem::path NewPictureOf(const std::filesystem::path& out, const std::string& name);
+std::filesystem::path DifferenceOf(const std::filesystem::path& out, const std::string& name);
+/// Accepted, new and difference side by side, with words.
+std::filesystem::path CompositeOf(const std::filesystem::path& out, const std::string& name);
 
-  void Add(Outcome outcome);
-  /// 0: all are the same. 2 if a case was not compared, whatever the others are: the verdict is
-  /// not known then. Else 1.
-  int ExitCode() const;
-};
+/// All that golden.lock keeps of a drawing, but for the hash of its file.
+AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawing,
+                      const std::map<std::string, std::string>& environment);
 
 }  // namespace kinescope::app

@@ -1,10 +1,13 @@
-// `kinescope golden check | update | list | compare`: have the pictures that people see changed,
-// and what in them?
+// `kinescope golden check | accept | update | new | keys | list | compare`: have the pictures that
+// people see changed, and what in them?
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +16,14 @@
 #include "render/image/new_file.h"
 #include "render/renderer.h"
 #include "server/app/commands.h"
+#include "server/app/golden/golden_accept.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_compare.h"
+#include "server/app/golden/golden_github.h"
 #include "server/app/golden/golden_junit.h"
+#include "server/app/golden/golden_new.h"
+#include "server/app/golden/golden_report.h"
+#include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_suite.h"
 #include "server/app/golden/golden_update.h"
 #include "server/app/print.h"
@@ -29,69 +37,95 @@ struct GoldenOptions {
   options::Text folder{"golden_images"};
   options::Texts only;
   options::Text out{"out/golden"};
-  options::Text junit;
-  options::Flag json;
+  options::Text junit, summary;
+  options::Flag json, is_strict, takes_other_environment;
+  options::Text run{"out/golden"}, accept_folder;
   BackendOptions backend;
 
   void ListCases(options::OptionList& option) {
-    option("folder", folder, "folder with <case>.yaml, .png and .objects.json");
+    option("folder", folder, "folder with <case>.yaml, <case>.png and golden.lock");
     option("case", only, "cases to use; default: all");
   }
 };
 
-std::string ToJson(const CaseVerdict& verdict) {
-  return JsonText(nlohmann::json{{"case", verdict.name},
-                                 {"same", verdict.outcome == Outcome::kSame},
-                                 {"outcome", Name(verdict.outcome)},
-                                 {"problems", verdict.problems},
-                                 {"seconds", verdict.secs}});
-}
-
-const char* LoudName(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSame: return "same";
-    case Outcome::kDiffers: return "DIFFERS";
-    case Outcome::kNotCompared: break;
-  }
-  return "NOT COMPARED";
-}
-
 void PrintVerdict(const CaseVerdict& verdict) {
-  Print("{:<24} {}\n", verdict.name, LoudName(verdict.outcome));
+  const char* const how =
+      verdict.outcome == Outcome::kSame && !verdict.is_byte_equal ? " (within the limits)" : "";
+  Print("{:<24} {}{}\n", verdict.name, LoudName(verdict.outcome), how);
   if (verdict.outcome != Outcome::kSame && !verdict.why.empty()) {
     Print("  purpose: {}\n", verdict.why);
   }
-  for (const std::string& problem : verdict.problems) Print("  {}\n", problem);
+  for (const std::string& line : Explain(verdict)) Print("  {}\n", line);
 }
 
 void PrintSummary(const OutcomeCounts& counts, const GoldenOptions& options) {
+  Print("{}\n", Headline(counts));
   if (counts.ExitCode() == 0) return;
-  Print("{} same, {} differ, {} not compared; see {}/<case>.actual.png and .diff.png\n",
-        counts.same, counts.different, counts.not_compared, *options.out);
-  if (counts.different == 0) return;
-  Print("To accept: check the pictures, then run `kinescope golden update {} <case>`\n",
-        *options.folder);
+  Print("Report: {}/report.html; to accept what it shows: kinescope golden accept {} CASE...\n",
+        *options.out, *options.out);
+}
+
+// What GitHub reads from standard output. Between Begin and End it obeys nothing, because names in
+// verdicts come from files.
+class GithubOutput {
+ public:
+  explicit GithubOutput(bool is_json)
+      : is_on_(!is_json && std::getenv("GITHUB_ACTIONS") != nullptr) {
+    std::random_device random;
+    token_ = fmt::format("kinescope-{:08x}{:08x}", random(), random());
+    if (is_on_) Print("::stop-commands::{}\n", token_);
+  }
+  void End(const std::vector<CaseVerdict>& verdicts, const std::string& out) const {
+    if (!is_on_) return;
+    Print("::{}::\n", token_);
+    PrintText(stdout, ToAnnotations(verdicts, out));
+    const char* const summary = std::getenv("GITHUB_STEP_SUMMARY");
+    if (summary == nullptr) return;
+    std::ofstream(summary, std::ios::app) << ToMarkdown(verdicts, out);
+  }
+
+ private:
+  bool is_on_;
+  std::string token_;
+};
+
+void WriteResults(const GoldenOptions& options, const std::vector<CaseVerdict>& verdicts) {
+  const std::filesystem::path out = *options.out;
+  WriteRun(out, *options.folder, verdicts);
+  render::WriteNewFile(out / "report.html", GoldenReport(verdicts, {*options.folder, out}));
+  if (!options.junit->empty()) {
+    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.folder, out));
+  }
+  if (!options.summary->empty()) {
+    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, out));
+  }
 }
 
 int CheckAll(const GoldenOptions& options) {
   const GoldenSuite suite = FindGoldenSuite(*options.folder, *options.only);
   const auto renderer = StartRenderer(options.backend);
-  OutcomeCounts counts;
+  ClearRun(*options.out);
+  const GithubOutput github(*options.json);
   std::vector<CaseVerdict> verdicts;
-  CheckSuite(suite, {*options.out}, *renderer, [&](const CaseVerdict& verdict) {
-    counts.Add(verdict.outcome);
+  CheckSuite(suite, {*options.out, *options.is_strict}, *renderer, [&](const CaseVerdict& verdict) {
     verdicts.push_back(verdict);
     if (*options.json) {
-      Print("{}\n", ToJson(verdict));
+      Print("{}\n", JsonText(ToJson(verdict, *options.out)));
     } else {
       PrintVerdict(verdict);
     }
   });
-  if (!options.junit->empty()) {
-    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.folder, *options.out));
-  }
+  const OutcomeCounts counts = CountsOf(verdicts);
+  WriteResults(options, verdicts);
   if (!*options.json) PrintSummary(counts, options);
+  github.End(verdicts, *options.out);
   return counts.ExitCode();
+}
+
+int AcceptAll(const GoldenOptions& options) {
+  RefuseToAcceptInCi();
+  return AcceptRun(
+      {*options.run, *options.only, *options.accept_folder, *options.takes_other_environment});
 }
 
 int UpdateAll(const GoldenOptions& options) {
@@ -103,7 +137,7 @@ int UpdateAll(const GoldenOptions& options) {
 int ListAll(const GoldenOptions& options) {
   const GoldenSuite suite = FindGoldenSuite(*options.folder, *options.only);
   for (const FoundCase& found : suite.cases) {
-    const bool is_accepted = std::filesystem::exists(suite.PictureOf(found));
+    const bool is_accepted = suite.AcceptedOf(found) != nullptr;
     const std::string why = found.read ? *found.read->why : found.error;
     if (*options.json) {
       Print("{}\n", JsonText(nlohmann::json{{"case", found.name},
@@ -129,13 +163,19 @@ Command CheckCommand() {
   check.about = "Draws every case and compares it with the accepted picture";
   values->ListCases(check.options);
   values->backend.List(check.options);
-  check.options("out", values->out, "folder for the pictures of cases that are not the same");
+  check.options("out", values->out,
+                "folder for the report, the verdicts (run.json) and the pictures of cases that are "
+                "not the same");
+  check.options("strict", values->is_strict,
+                "only equal bytes in the accepted environment are the same");
   check.options("junit", values->junit, "JUnit XML file for CI servers");
+  check.options("summary", values->summary, "Markdown file, for comments and pages of jobs");
   check.options("json", values->json, "print the verdicts as JSON");
   check.positionals = {"folder", "case"};
   check.footer =
       "Exit code: 0 all are the same, 1 a case differs or a picture belongs to no case, 2 a case "
-      "could not be compared.";
+      "could not be compared.\n"
+      "In GitHub Actions, it writes annotations and the summary of the job by itself.";
   check.run = [values](options::OptionList&) { return CheckAll(*values); };
   return check;
 }
@@ -153,6 +193,25 @@ Command UpdateCommand() {
   return update;
 }
 
+Command AcceptCommand() {
+  const auto values = std::make_shared<GoldenOptions>();
+  Command accept;
+  accept.name = "accept";
+  accept.about = "Takes the new pictures of a run of golden check, without drawing them again";
+  accept.options("run", values->run, "folder that golden check has left (its --out)");
+  accept.options("case", values->only, "cases to take; default: all that are not the same");
+  accept.options("folder", values->accept_folder, "folder of the cases; default: that of the run");
+  accept.options("other_environment", values->takes_other_environment,
+                 "take pictures that were drawn with another driver or font than the others");
+  accept.positionals = {"run", "case"};
+  accept.footer =
+      "Works on another machine than the run, too: it takes a picture only if the case, its inputs "
+      "and the picture accepted before are those of the run.\n"
+      "Exit code: 0 all are taken, 2 one is not. Refused where CI is set.";
+  accept.run = [values](options::OptionList&) { return AcceptAll(*values); };
+  return accept;
+}
+
 Command ListCommand() {
   const auto values = std::make_shared<GoldenOptions>();
   Command list;
@@ -163,6 +222,50 @@ Command ListCommand() {
   list.positionals = {"folder", "case"};
   list.run = [values](options::OptionList&) { return ListAll(*values); };
   return list;
+}
+
+struct NewCase {
+  options::Text folder{"golden_images"}, name;
+  GoldenCase described;
+};
+
+int WriteCase(const NewCase& values, const options::OptionList& given) {
+  options::OptionList keys = given;
+  keys.Remove({"folder", "name"});
+  const auto path = WriteNewCase(*values.folder, *values.name, keys);
+  Print("{}\nNext: kinescope golden check {} {} draws it, and says how to accept it\n",
+        path.string(), *values.folder, *values.name);
+  return 0;
+}
+
+Command NewCommand() {
+  const auto values = std::make_shared<NewCase>();
+  Command command;
+  command.name = "new";
+  command.about =
+      "Writes a case: what to draw, and from which recording\n"
+      "  kinescope golden new golden_images lift --source=lift.mvnx --time=2.5 --camera=right";
+  command.options("folder", values->folder, "folder of the cases; made if there is none");
+  command.options("name", values->name, "name of the case, and of its file");
+  values->described.List(command.options);
+  command.positionals = {"folder", "name"};
+  command.required = {"folder", "name", "source"};
+  command.footer = "Paths are given from here; in the case they are relative to its file.";
+  command.run = [values](options::OptionList& given) { return WriteCase(*values, given); };
+  return command;
+}
+
+Command KeysCommand() {
+  const auto values = std::make_shared<GoldenOptions>();
+  Command keys;
+  keys.name = "keys";
+  keys.about = "Explains every key that a case may have, with its default";
+  keys.options("json", values->json, "print the keys as JSON");
+  keys.run = [values](options::OptionList&) {
+    PrintKeys(*values->json);
+    return 0;
+  };
+  return keys;
 }
 
 struct CompareOptions {
@@ -204,7 +307,8 @@ Command GoldenCommand() {
   Command command;
   command.name = "golden";
   command.about = "Compares pictures with the accepted ones";
-  command.parts = {CheckCommand(), UpdateCommand(), ListCommand(), CompareCommand()};
+  command.parts = {CheckCommand(), AcceptCommand(), UpdateCommand(), NewCommand(),
+                   KeysCommand(),  ListCommand(),   CompareCommand()};
   return command;
 }
 

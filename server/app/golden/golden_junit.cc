@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "core/system/utf8.h"
+#include "server/app/golden/golden_check.h"
 #include "server/app/html.h"
 
 namespace kinescope::app {
@@ -17,24 +20,29 @@ std::string Lines(const std::vector<std::string>& problems) {
   return text;
 }
 
+// GitLab shows one picture, by its path from the project; Jenkins wants a path from the root.
+std::string PathForServer(const std::filesystem::path& path) {
+  return std::getenv("GITLAB_CI") != nullptr ? path.string()
+                                             : std::filesystem::absolute(path).string();
+}
+
 std::string CaseToXml(const CaseVerdict& verdict, const std::string& suite,
                       const std::filesystem::path& out) {
   std::string xml =
       fmt::format("    <testcase classname=\"golden {}\" name=\"{}\" file=\"{}\" time=\"{:.3f}\"",
                   suite, Xml(verdict.name), Xml(verdict.file.string()), verdict.secs);
   if (verdict.outcome == Outcome::kSame) return xml + "/>\n";
+  const std::vector<std::string> lines = Explain(verdict);
   const char* const kind = verdict.outcome == Outcome::kDiffers ? "failure" : "error";
   xml += fmt::format(">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", kind,
-                     Name(verdict.outcome), Xml(verdict.problems.front()), Lines(verdict.problems));
-  std::string attached;
-  for (const char* picture : {".actual.png", ".diff.png"}) {
-    const std::filesystem::path path = out / (verdict.name + picture);
+                     Name(verdict.outcome), Xml(lines.empty() ? "" : lines.front()), Lines(lines));
+  for (const auto& picture : {CompositeOf(out, verdict.name), NewPictureOf(out, verdict.name)}) {
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) {
-      attached += fmt::format("[[ATTACHMENT|{}]]\n", Xml(path.string()));
-    }
+    if (!std::filesystem::exists(picture, ignored)) continue;
+    xml += fmt::format("      <system-out>[[ATTACHMENT|{}]]\n</system-out>\n",
+                       Xml(PathForServer(picture)));
+    break;
   }
-  if (!attached.empty()) xml += fmt::format("      <system-out>{}</system-out>\n", attached);
   return xml + "    </testcase>\n";
 }
 

@@ -1,13 +1,14 @@
 /// The verdicts of `golden check` as JUnit XML, which CI servers show beside each case. A case that
-/// differs is a failure, one that was not compared an error; each names the pictures that are
-/// written ([[ATTACHMENT|path]], which GitLab and Jenkins show). Pure function; any thread.
+/// differs is a failure, one that was not compared an error; each names the picture that explains
+/// it
+/// ([[ATTACHMENT|path]], which GitLab and Jenkins show). Reads the environment; any thread.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "server/app/golden/golden_check.h"
+#include "server/app/golden/golden_verdict.h"
 
 namespace kinescope::app {
 

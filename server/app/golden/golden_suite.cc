@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kCase[] = ".yaml", kPicture[] = ".png", kObjects[] = ".objects.json";
+constexpr char kCase[] = ".yaml", kPicture[] = ".png";
+constexpr char kObjects[] = ".objects.json";  // of earlier versions
 
 // "bend" of "bend.objects.json"; nullopt if the name has another ending.
 std::optional<std::string> NameBefore(const std::string& ending, const fs::path& file) {
@@ -50,8 +51,15 @@ fs::path GoldenSuite::PictureOf(const FoundCase& found) const {
   return folder / (found.name + kPicture);
 }
 
-fs::path GoldenSuite::ObjectsOf(const FoundCase& found) const {
-  return folder / (found.name + kObjects);
+fs::path GoldenSuite::CaseFileOf(const FoundCase& found) const {
+  return folder / (found.name + kCase);
+}
+
+fs::path GoldenSuite::lock_file() const { return folder / "golden.lock"; }
+
+const AcceptedCase* GoldenSuite::AcceptedOf(const FoundCase& found) const {
+  const auto accepted = lock.find(found.name);
+  return accepted == lock.end() ? nullptr : &accepted->second;
 }
 
 GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::string>& names) {
@@ -73,6 +81,7 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   }
   GoldenSuite suite;
   suite.folder = folder;
+  suite.lock = ReadLock(suite.lock_file());
   for (const std::string& name : names) {
     if (known.count(name) == 0) throw UsageError(NotThere(folder, name, known));
   }
@@ -80,12 +89,13 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
       names.empty() ? known : std::set<std::string>(names.begin(), names.end());
   for (const std::string& name : chosen) suite.cases.push_back(Read(folder / (name + kCase)));
   if (!names.empty()) return suite;  // of the others nothing is known
+  for (const auto& [name, ignored] : suite.lock) {
+    if (known.count(name) == 0) suite.unknown_locks.push_back(name);
+  }
   std::sort(accepted.begin(), accepted.end());
   for (fs::path& file : accepted) {
     const auto name = NameBefore(kPicture, file);
-    if (known.count(name ? *name : *NameBefore(kObjects, file)) == 0) {
-      suite.orphans.push_back(std::move(file));
-    }
+    if (!name || known.count(*name) == 0) suite.orphans.push_back(std::move(file));
   }
   return suite;
 }

@@ -1,5 +1,5 @@
-/// The golden cases of a folder: those that can be drawn, those that cannot be read, and accepted
-/// pictures that belong to no case. One thread.
+/// The golden cases of a folder: those that can be drawn, those that cannot be read, what is
+/// accepted of them, and what is accepted of none. One thread.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/app/golden/golden_case.h"
+#include "server/app/golden/golden_lock.h"
 
 namespace kinescope::app {
 
@@ -21,13 +22,19 @@ struct GoldenSuite {
   std::filesystem::path folder;
   std::vector<FoundCase> cases;                // by name
   std::vector<std::filesystem::path> orphans;  // names of files; by name
+  GoldenLock lock;
+  std::vector<std::string> unknown_locks;  // names in `lock` that no case has
 
   std::filesystem::path PictureOf(const FoundCase& found) const;
-  std::filesystem::path ObjectsOf(const FoundCase& found) const;
+  std::filesystem::path CaseFileOf(const FoundCase& found) const;
+  std::filesystem::path lock_file() const;
+  /// What is accepted of the case; nullptr: nothing yet.
+  const AcceptedCase* AcceptedOf(const FoundCase& found) const;
 };
 
 /// Those cases of `folder` that are named; all of them, and the orphans, if none is.
-/// @throws UsageError if the folder cannot be read, has no case, or not one that is named.
+/// @throws UsageError if the folder cannot be read, has no case, or not one that is named;
+/// std::runtime_error if `golden.lock` cannot be read.
 GoldenSuite FindGoldenSuite(const std::filesystem::path& folder,
                             const std::vector<std::string>& names);
 

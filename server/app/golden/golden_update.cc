@@ -1,17 +1,17 @@
 #include "server/app/golden/golden_update.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "core/system/errors.h"
+#include "core/system/sha256.h"
 #include "core/system/stop_signal.h"
-#include "render/image/compare.h"
-#include "render/image/new_file.h"
 #include "render/image/png_file.h"
-#include "server/app/golden/golden_objects.h"
+#include "server/app/golden/golden_check.h"
 #include "server/app/print.h"
 
 namespace kinescope::app {
@@ -36,38 +36,49 @@ void CheckDrawing(const GoldenDrawing& drawing) {
                            wrong.front());
 }
 
-// Empty if it is no file.
-std::string ContentOf(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return "";
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+// What has changed between them, in words; "": nothing.
+std::string WordsFor(const AcceptedCase* before, const AcceptedCase& now) {
+  if (before == nullptr) return "";
+  const GoldenChanges changes = ChangesBetween(*before, now);
+  std::vector<std::string> words;
+  if (before->pixels_sha256 != now.pixels_sha256) words.emplace_back("picture");
+  if (ToJson(before->facts) != ToJson(now.facts)) words.emplace_back("what it shows");
+  if (!changes.options.empty()) words.emplace_back("case");
+  if (!changes.inputs.empty()) words.emplace_back("inputs");
+  if (!changes.environment.empty()) words.emplace_back("environment");
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
-bool IsAccepted(const fs::path& picture, const render::Image& image) {
+bool IsThere(const fs::path& picture, const std::string& pixels_sha256) {
   std::error_code ignored;
   if (!fs::is_regular_file(picture, ignored)) return false;
   try {
-    return render::Compare(render::ReadPng(picture), image, 0).equal();
+    return PixelsHash(render::ReadPng(picture)) == pixels_sha256;
   } catch (const std::exception&) {
     return false;  // it is damaged
   }
 }
 
 // What was written; "unchanged" if nothing was.
-std::string Accept(const GoldenSuite& suite, const FoundCase& found, const GoldenDrawing& drawing) {
-  const fs::path picture = suite.PictureOf(found), objects = suite.ObjectsOf(found);
-  std::string written;
-  const std::string spheres = ToJson(drawing.spheres);
-  if (!IsAccepted(picture, drawing.image)) {
-    written = fs::exists(picture) ? "picture" : "picture (new)";
-    render::WritePng(picture, drawing.image);
-  }
-  if (ContentOf(objects) != spheres) {
-    written += written.empty() ? "load spheres" : ", load spheres";
-    render::WriteNewFile(objects, spheres);
-  }
-  return written.empty() ? "unchanged" : "written: " + written + "; check the picture";
+std::string Accept(GoldenSuite& suite, const FoundCase& found, const GoldenDrawing& drawing,
+                   const std::map<std::string, std::string>& environment) {
+  AcceptedCase now = Describe(*found.read, drawing, environment);
+  const AcceptedCase* const before = suite.AcceptedOf(found);
+  const std::string words = WordsFor(before, now);
+  const fs::path picture = suite.PictureOf(found);
+  const bool is_there = IsThere(picture, now.pixels_sha256);
+  if (!is_there) render::WritePng(picture, drawing.image);
+  now.file_sha256 = DigestOf(picture).sha256;
+  suite.lock[found.name] = std::move(now);
+  if (before == nullptr) return "accepted for the first time; check the picture";
+  if (!words.empty()) return "accepted: " + words + "; check the picture";
+  return is_there ? "unchanged" : "the picture was missing or damaged and is written again";
+}
+
+std::string ContentOf(const GoldenLock& lock) {
+  std::string content;
+  for (const auto& [name, accepted] : lock) content += name + ToJson(accepted);
+  return content;
 }
 
 }  // namespace
@@ -75,15 +86,17 @@ std::string Accept(const GoldenSuite& suite, const FoundCase& found, const Golde
 void RefuseToAcceptInCi() {
   const char* const ci = std::getenv("CI");
   if (ci == nullptr || *ci == '\0') return;
-  throw UsageError(std::string("golden update: CI=") + ci +
+  throw UsageError(std::string("CI=") + ci +
                    ": nothing is accepted where no person looks at the pictures; run it on your "
                    "machine, and commit what it writes");
 }
 
-int UpdateSuite(const GoldenSuite& suite, render::Renderer& renderer) {
+int UpdateSuite(GoldenSuite suite, render::Renderer& renderer) {
+  const auto environment = EnvironmentOf(renderer.info());
+  const std::string before = ContentOf(suite.lock);
   bool is_complete = true;
   for (const FoundCase& found : suite.cases) {
-    if (StopRequested()) throw std::runtime_error("interrupted; the cases before are updated");
+    if (StopRequested()) throw std::runtime_error("interrupted; nothing is accepted");
     std::optional<GoldenDrawing> drawing;
     try {
       if (!found.read) throw std::runtime_error(found.error);
@@ -94,8 +107,13 @@ int UpdateSuite(const GoldenSuite& suite, render::Renderer& renderer) {
       Print("{:<24} NOT ACCEPTED\n  {}\n", found.name, error.what());
       continue;
     }
-    Print("{:<24} {}\n", found.name, Accept(suite, found, *drawing));
+    Print("{:<24} {}\n", found.name, Accept(suite, found, *drawing, environment));
   }
+  for (const std::string& name : suite.unknown_locks) {
+    suite.lock.erase(name);
+    Print("{:<24} removed from golden.lock: there is no .yaml of this name\n", name);
+  }
+  if (ContentOf(suite.lock) != before) WriteLock(suite.lock_file(), suite.lock);
   return is_complete ? 0 : 2;
 }
 

@@ -10,7 +10,7 @@ namespace kinescope::app {
 /// nothing, is not accepted and keeps no other case from it. Returns the exit code: 0, or 2 if any
 /// was not accepted.
 /// @throws std::runtime_error if a file cannot be written, or when interrupted.
-int UpdateSuite(const GoldenSuite& suite, render::Renderer& renderer);
+int UpdateSuite(GoldenSuite suite, render::Renderer& renderer);
 
 /// @throws UsageError in CI (environment variable CI), where no person looks at what is accepted.
 void RefuseToAcceptInCi();

@@ -84,6 +84,15 @@ TEST_F(OptionListTest, ReportsPlaceValueAndNearestWordOfAnError) {
             path + ":2: mass=heavy: expected a number from 20 to 300 kg");
 }
 
+TEST_F(OptionListTest, ReadsAListWhereAnOptionMayBeGivenSeveralTimes) {
+  Texts robots;
+  list_("robot", robots, "a robot beside the people");
+  YamlOptions(Write("robot: [a.urdf, 'b.urdf,base_z=1']\n")).SetAll(list_);
+  EXPECT_THAT(robots.ToTexts(), ::testing::ElementsAre("a.urdf", "b.urdf,base_z=1"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("robot: [[a.urdf]]\n")).SetAll(list_); }),
+              HasSubstr("options.yaml:1: robot: expected a list of values"));
+}
+
 TEST_F(OptionListTest, ReportsFileAndLineOfAnUnreadableFile) {
   EXPECT_THAT(ErrorOf([] { YamlOptions("/nowhere.yaml"); }), HasSubstr("/nowhere.yaml: "));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("- 1\n- 2\n")); }), HasSubstr("expected lines of"));

@@ -22,7 +22,7 @@ class FakeRenderer : public render::Renderer {
 
   Eigen::AlignedBox3d Bounds(const RobotState&) override { return {}; }
   std::vector<std::string> problems() const override { return {}; }
-  render::RendererInfo info() const override { return {"fake", "a fake", "0.0", true, ""}; }
+  render::RendererInfo info() const override { return {"fake", "a fake", "0.0", true, "", "none"}; }
 
  private:
   // Every level is the number of the picture, from 1; what is written over it names that.

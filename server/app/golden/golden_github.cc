@@ -1,0 +1,113 @@
+#include "server/app/golden/golden_github.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/system/utf8.h"
+#include "server/app/html.h"
+
+namespace kinescope::app {
+namespace {
+
+constexpr std::size_t kMostSummary = 900'000;  // bytes
+constexpr std::size_t kMostAnnotations = 10, kMostAnnotationLines = 8;
+
+std::vector<const CaseVerdict*> Failures(const std::vector<CaseVerdict>& verdicts) {
+  std::vector<const CaseVerdict*> failures;
+  for (const CaseVerdict& verdict : verdicts) {
+    if (verdict.outcome != Outcome::kSame) failures.push_back(&verdict);
+  }
+  return failures;
+}
+
+std::string Replaced(std::string text, char what, const char* by) {
+  std::string replaced;
+  for (const char c : text) {
+    if (c == what) {
+      replaced += by;
+    } else {
+      replaced += c;
+    }
+  }
+  return replaced;
+}
+
+// Of a workflow command: GitHub decodes it. Line breaks of our own are added after.
+std::string CommandText(const std::string& text) {
+  return Replaced(PrintableLine(text), '%', "%25");
+}
+
+std::string CommandProperty(const std::string& text) {
+  return Replaced(Replaced(CommandText(text), ':', "%3A"), ',', "%2C");
+}
+
+std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& out) {
+  std::vector<std::string> lines;
+  for (const std::string& line : Explain(verdict)) {
+    if (lines.size() == kMostAnnotationLines) break;
+    lines.push_back(CommandText(line));
+  }
+  if (verdict.now) {
+    lines.push_back(CommandText(
+        fmt::format("Accept: kinescope golden accept {} {}", out.string(), verdict.name)));
+  }
+  return fmt::format(
+      "::error file={},line={},title={}::{}\n", CommandProperty(verdict.file.string()),
+      verdict.line,
+      CommandProperty(fmt::format("golden {}: {}", verdict.name, Name(verdict.outcome))),
+      fmt::join(lines, "%0A"));
+}
+
+}  // namespace
+
+std::string ToMarkdown(const std::vector<CaseVerdict>& verdicts, const std::filesystem::path& out) {
+  const OutcomeCounts counts = CountsOf(verdicts);
+  std::string text =
+      fmt::format("## {} {}\n\n", counts.ExitCode() == 0 ? "✓" : "✕", EscapeHtml(Headline(counts)));
+  if (counts.ExitCode() == 0) return text;
+  text += fmt::format(
+      "{} passed, exit code {}. Pictures and commands: `{}/report.html` of this run (artifact).\n\n"
+      "| case | in words | what changed |\n|---|---|---|\n",
+      counts.same, counts.ExitCode(), EscapeHtml(out.string()));
+  const auto failures = Failures(verdicts);
+  std::size_t shown = 0;
+  for (const CaseVerdict* verdict : failures) {
+    const std::vector<std::string> lines = Explain(*verdict);
+    const bool has_cause = verdict->outcome == Outcome::kDiffers && verdict->now;
+    std::string row = fmt::format("| **{}** | {} | {} |\n", EscapeHtml(verdict->name),
+                                  lines.empty() ? "" : EscapeHtml(lines.front()),
+                                  has_cause ? CauseOf(verdict->changes) : Name(verdict->outcome));
+    if (text.size() + row.size() > kMostSummary / 2) break;
+    text += row;
+    ++shown;
+  }
+  if (shown < failures.size()) text += fmt::format("\nand {} more\n", failures.size() - shown);
+  text += "\n<details><summary>All changes in words</summary>\n\n";
+  for (const CaseVerdict* verdict : failures) {
+    std::string part = fmt::format("**{}**\n", EscapeHtml(verdict->name));
+    for (const std::string& line : Explain(*verdict)) part += "- " + EscapeHtml(line) + "\n";
+    if (text.size() + part.size() > kMostSummary) break;
+    text += part + "\n";
+  }
+  return text + "</details>\n";
+}
+
+std::string ToAnnotations(const std::vector<CaseVerdict>& verdicts,
+                          const std::filesystem::path& out) {
+  const auto failures = Failures(verdicts);
+  std::string text;
+  std::size_t room = kMostAnnotations;
+  if (failures.size() > room) {
+    --room;
+    text += fmt::format(
+        "::error title=golden::{} of them are shown here; {}/report.html shows all. "
+        "{}\n",
+        room, CommandText(out.string()), CommandText(Headline(CountsOf(verdicts))));
+  }
+  for (std::size_t i = 0; i < failures.size() && i < room; ++i) {
+    text += Annotation(*failures[i], out);
+  }
+  return text;
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,97 @@
+#include "server/app/golden/golden_new.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "core/system/starts_with.h"
+#include "render/image/new_file.h"
+#include "server/app/print.h"
+#include "server/options/option_json.h"
+#include "server/options/yaml_file.h"
+#include "server/source/scheme.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+using options::Option;
+
+void CheckName(const std::string& name) {
+  const bool is_plain =
+      !name.empty() && name.front() != '.' && name.find_first_of("/\\\n") == std::string::npos;
+  if (!is_plain) {
+    throw UsageError(
+        fmt::format("case '{}': expected a name for a file, such as lift_front", name));
+  }
+}
+
+std::string RelativeTo(const fs::path& folder, const std::string& path) {
+  return fs::proximate(fs::absolute(path), fs::absolute(folder)).string();
+}
+
+// As the case must say it: paths were given from here, and are read from there.
+std::string TextFor(const Option& option, const fs::path& folder) {
+  constexpr char kSkinFile[] = "skin:";
+  const std::string text = option.value->ToText();
+  if (option.name == "source") return IsSubjectUrl(text) ? text : RelativeTo(folder, text);
+  if (option.name == "wrenches") return RelativeTo(folder, text);
+  if (option.name == "figure" && StartsWith(text, kSkinFile)) {
+    return kSkinFile + RelativeTo(folder, text.substr(sizeof kSkinFile - 1));
+  }
+  return text;
+}
+
+options::YamlLine LineOf(const Option& option, const fs::path& folder) {
+  if (option.value->is_repeatable()) return {option.name, option.value->ToTexts(), true};
+  return {option.name, {TextFor(option, folder)}, false};
+}
+
+}  // namespace
+
+fs::path WriteNewCase(const fs::path& folder, const std::string& name,
+                      const options::OptionList& options) {
+  CheckName(name);
+  const fs::path path = folder / (name + ".yaml");
+  if (fs::exists(path)) {
+    throw UsageError(path.string() + ": there is such a case already; choose another name");
+  }
+  std::vector<options::YamlLine> lines;
+  for (const Option& option : options) {
+    if (!option.given_as.empty()) lines.push_back(LineOf(option, folder));
+  }
+  fs::create_directories(folder);
+  render::WriteNewFile(path, options::ToYaml(lines));
+  try {
+    LoadGoldenCase(path);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    throw;
+  }
+  return path;
+}
+
+void PrintKeys(bool as_json) {
+  GoldenCase defaults;
+  options::OptionList keys;
+  defaults.List(keys);
+  for (const Option& key : keys) {
+    if (key.group == options::kHidden) continue;
+    const std::string expected = key.value->Expected();
+    if (as_json) {
+      Print("{}\n", JsonText(nlohmann::ordered_json{{"key", key.name},
+                                                    {"default", options::ToJson(*key.value)},
+                                                    {"expected", expected},
+                                                    {"about", key.help}}));
+      continue;
+    }
+    const std::string value = key.value->IsGiven() ? key.value->ToText() : "";
+    Print("{}: {}\n    {}{}\n", key.name, value, key.help,
+          expected.empty() ? "" : " [" + expected + "]");
+  }
+}
+
+}  // namespace kinescope::app

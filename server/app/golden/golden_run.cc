@@ -1,0 +1,136 @@
+#include "server/app/golden/golden_run.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "render/image/new_file.h"
+#include "server/app/golden/golden_check.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+
+constexpr int kRunSchema = 1;
+
+fs::path FileOf(const fs::path& out) { return out / "run.json"; }
+
+Json ToJson(const Finding& finding) {
+  Json line = {{"kind", Name(finding.kind)}, {"object", finding.object}};
+  if (!finding.expected.empty()) line["expected"] = finding.expected;
+  if (!finding.actual.empty()) line["found"] = finding.actual;
+  if (finding.amount != 0) line["amount"] = finding.amount;
+  line["text"] = finding.text;
+  return line;
+}
+
+Json PathIfThere(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored) ? Json(path.string()) : Json(nullptr);
+}
+
+CaseOfRun CaseFrom(const json& line) {
+  CaseOfRun read;
+  read.name = line.at("case");
+  read.is_same = line.at("outcome") == Name(Outcome::kSame);
+  read.accepted_pixels = line.at("accepted_pixels");
+  if (!line.at("now").is_null()) read.now = AcceptedFrom(line.at("now"));
+  return read;
+}
+
+}  // namespace
+
+Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
+  Json line = {{"case", verdict.name},
+               {"why", verdict.why},
+               {"file", verdict.file.string()},
+               {"outcome", Name(verdict.outcome)},
+               {"same", verdict.outcome == Outcome::kSame},
+               {"byte_equal", verdict.is_byte_equal},
+               {"problems", Explain(verdict)},
+               {"seconds", verdict.secs}};
+  line["findings"] = Json::array();
+  for (const Finding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
+  line["layers"] = Json::array();
+  for (const Layer& layer : verdict.layers) {
+    line["layers"].push_back({{"name", layer.name},
+                              {"found", layer.found},
+                              {"limit", layer.limit},
+                              {"passes", layer.passes}});
+  }
+  line["cause"] = verdict.outcome == Outcome::kDiffers && verdict.now
+                      ? Json(CauseOf(verdict.changes))
+                      : Json(nullptr);
+  line["changes"] = {{"case", verdict.changes.options},
+                     {"inputs", verdict.changes.inputs},
+                     {"environment", verdict.changes.environment}};
+  line["picture"] = PathIfThere(NewPictureOf(out, verdict.name));
+  line["difference"] = PathIfThere(DifferenceOf(out, verdict.name));
+  line["comparison"] = PathIfThere(CompositeOf(out, verdict.name));
+  return line;
+}
+
+void ClearRun(const fs::path& out) {
+  std::error_code error;
+  std::vector<fs::path> left = {FileOf(out)};
+  for (const auto& entry : fs::directory_iterator(out, error)) {
+    const std::string name = entry.path().filename();
+    for (const std::string ending : {".actual.png", ".diff.png", ".compare.png"}) {
+      if (name.size() > ending.size() &&
+          name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
+        left.push_back(entry.path());
+      }
+    }
+  }
+  for (const fs::path& path : left) {
+    fs::remove(path, error);
+    if (error) throw std::runtime_error(path.string() + ": " + error.message());
+  }
+}
+
+void WriteRun(const fs::path& out, const fs::path& folder,
+              const std::vector<CaseVerdict>& verdicts) {
+  const OutcomeCounts counts = CountsOf(verdicts);
+  Json run = {{"schema", kRunSchema},           {"kinescope", KINESCOPE_VERSION},
+              {"folder", folder.string()},      {"headline", Headline(counts)},
+              {"exit_code", counts.ExitCode()}, {"cases", Json::array()}};
+  for (const CaseVerdict& verdict : verdicts) {
+    Json line = ToJson(verdict, out);
+    line["accepted_pixels"] = verdict.accepted_pixels;
+    line["now"] = verdict.now ? Json::parse(ToJson(*verdict.now)) : Json(nullptr);
+    run["cases"].push_back(std::move(line));
+  }
+  fs::create_directories(out);
+  render::WriteNewFile(FileOf(out), JsonText(run, 1) + "\n");
+}
+
+GoldenRun ReadRun(const fs::path& out) {
+  const fs::path path = FileOf(out);
+  std::ifstream file(path);
+  if (!file) {
+    throw UsageError(path.string() +
+                     ": cannot be read; name the folder that `kinescope golden check --out` wrote");
+  }
+  try {
+    const json document = json::parse(file);
+    if (const int schema = document.at("schema"); schema != kRunSchema) {
+      throw UsageError(
+          fmt::format("{}: schema {}; this version reads {}", path.string(), schema, kRunSchema));
+    }
+    GoldenRun run;
+    run.folder = document.at("folder").get<std::string>();
+    for (const auto& line : document.at("cases")) run.cases.push_back(CaseFrom(line));
+    return run;
+  } catch (const std::ios_base::failure&) {
+    throw UsageError(path.string() + ": cannot be read (a folder?)");
+  } catch (const json::exception& error) {
+    throw UsageError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace kinescope::app

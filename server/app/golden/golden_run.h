@@ -1,0 +1,43 @@
+/// The folder that a check leaves: new pictures, and `run.json` with the verdicts, hashes of inputs
+/// and environment, from which pictures are accepted on another machine. Pure but for files; one
+/// thread.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/app/golden/golden_verdict.h"
+
+namespace kinescope::app {
+
+/// A verdict with numbers and paths. Members `case`, `outcome`, `problems`, `findings`, `layers`,
+/// ...
+nlohmann::ordered_json ToJson(const CaseVerdict& verdict, const std::filesystem::path& out);
+
+/// Removes what an earlier run of this name has left: its pictures and its `run.json`. Other files
+/// stay. @throws std::runtime_error if they cannot be removed.
+void ClearRun(const std::filesystem::path& out);
+
+/// `folder`: of the cases. @throws std::runtime_error if it cannot be written.
+void WriteRun(const std::filesystem::path& out, const std::filesystem::path& folder,
+              const std::vector<CaseVerdict>& verdicts);
+
+struct CaseOfRun {
+  std::string name;
+  bool is_same = false;
+  std::string accepted_pixels;      // SHA-256 that was compared with; "": nothing was accepted
+  std::optional<AcceptedCase> now;  // nullopt: it was not drawn
+};
+
+struct GoldenRun {
+  std::filesystem::path folder;  // of the cases, as the run was given it
+  std::vector<CaseOfRun> cases;
+};
+
+/// @throws UsageError with the file and the reason if there is no run, or it cannot be read.
+GoldenRun ReadRun(const std::filesystem::path& out);
+
+}  // namespace kinescope::app

@@ -1,0 +1,72 @@
+/// What a check says of a case, as data: terminal, JSON, JUnit, report and summary print it. Pure
+/// functions; any thread.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/app/golden/finding.h"
+#include "server/app/golden/golden_changes.h"
+#include "server/app/golden/golden_lock.h"
+
+namespace kinescope::app {
+
+enum class Outcome {
+  kSame,
+  kDiffers,
+  kNotCompared,  // nothing is known of the picture: not readable, not accepted yet
+};
+
+/// "same", "differs", "not compared".
+const char* Name(Outcome outcome);
+/// As a heading in a terminal, where what fails is seen: "same", "DIFFERS", "NOT COMPARED".
+const char* LoudName(Outcome outcome);
+
+/// One of the ways of comparing, with its number.
+struct Layer {
+  std::string name;   // "objects", "structure", "light", "pixels"
+  std::string found;  // "3 of 29 changed"
+  std::string limit;  // "0"
+  bool passes = true;
+};
+
+struct CaseVerdict {
+  std::string name;  // of the case, or of a file that belongs to none
+  std::string why;   // purpose of the case
+  std::filesystem::path file;
+  int line = 1;  // of the file: the key that explains it best
+  Outcome outcome = Outcome::kSame;
+  std::vector<Finding> findings;   // kDiffers: the worst first
+  std::string reason;              // kNotCompared: why
+  std::vector<std::string> notes;  // what makes the check weaker
+  std::vector<Layer> layers;       // empty where the pixels are equal
+  bool is_byte_equal = false;
+  GoldenChanges changes;
+  std::string accepted_pixels;      // SHA-256; "": nothing is accepted
+  std::optional<AcceptedCase> now;  // nullopt: it was not drawn
+  double secs = 0;
+};
+
+/// The lines that explain it, the most telling first; empty if it is the same and nothing is weak.
+std::vector<std::string> Explain(const CaseVerdict& verdict);
+
+/// How many verdicts there are of each outcome.
+struct OutcomeCounts {
+  std::size_t same = 0, different = 0, not_compared = 0;
+
+  void Add(Outcome outcome);
+  std::size_t all() const { return same + different + not_compared; }
+  /// 0: all are the same. 2 if a case was not compared, whatever the others are: the verdict is
+  /// not known then. Else 1.
+  int ExitCode() const;
+};
+
+OutcomeCounts CountsOf(const std::vector<CaseVerdict>& verdicts);
+
+/// "7 of 14 pictures differ, 2 could not be compared".
+std::string Headline(const OutcomeCounts& counts);
+
+}  // namespace kinescope::app

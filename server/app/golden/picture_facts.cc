@@ -1,0 +1,154 @@
+#include "server/app/golden/picture_facts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/system/json_text.h"
+
+namespace kinescope::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using nlohmann::json;
+
+double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
+std::string InView(const std::string& view, const std::string& name) {
+  return view.empty() ? name : view + "/" + name;
+}
+
+// "right_elbow", and whose where it is not the first person's.
+std::string NameOf(const std::string& name, int character) {
+  return character <= 0 ? name : fmt::format("{} of person {}", name, character);
+}
+
+std::optional<LoadClass> ClassFrom(const std::string& name) {
+  for (const LoadClass load_class : kLoadClasses) {
+    if (name == Name(load_class)) return load_class;
+  }
+  return std::nullopt;
+}
+
+Json ToJson(const ObjectFact& object) {
+  Json line = {{"name", object.name}};
+  if (object.load_class) line["class"] = Name(*object.load_class);
+  if (object.ratio) line["ratio"] = Rounded(*object.ratio, 1000);
+  line["pixels"] = object.pixels;
+  if (object.through > 0) line["through"] = object.through;
+  line["x"] = Rounded(object.x_px, 10);
+  line["y"] = Rounded(object.y_px, 10);
+  return line;
+}
+
+Json ToJson(const TextFact& text) {
+  return {{"part", text.part},
+          {"text", text.text},
+          {"x", Rounded(text.x_px, 10)},
+          {"y", Rounded(text.y_px, 10)}};
+}
+
+Json Place(const Eigen::Vector3d& metres) {
+  return {Rounded(metres.x(), 1e4), Rounded(metres.y(), 1e4), Rounded(metres.z(), 1e4)};
+}
+
+Json ToJson(const CameraFact& fact) {
+  const render::Camera& camera = fact.camera;
+  return {{"view", fact.view},
+          {"position_m", Place(camera.position)},
+          {"target_m", Place(camera.target)},
+          {"up", Place(camera.up)},
+          {"vertical_fov_rad", Rounded(camera.vertical_fov_rad, 1e6)},
+          {"ortho_height_m", Rounded(camera.ortho_height_m, 1e4)}};
+}
+
+template <class Fact>
+std::string Lines(const char* name, const std::vector<Fact>& facts) {
+  std::string lines = fmt::format("\"{}\": [", name);
+  const char* separator = "\n  ";
+  for (const Fact& fact : facts) {
+    lines += separator + JsonText(ToJson(fact));
+    separator = ",\n  ";
+  }
+  return lines + (facts.empty() ? "]" : "\n ]");
+}
+
+Eigen::Vector3d PlaceFrom(const json& place) {
+  return {place.at(0).get<double>(), place.at(1).get<double>(), place.at(2).get<double>()};
+}
+
+ObjectFact ObjectFrom(const json& line) {
+  ObjectFact object;
+  object.name = line.at("name");
+  object.load_class = ClassFrom(line.value("class", ""));
+  if (line.contains("ratio")) object.ratio = line.at("ratio").get<double>();
+  object.pixels = line.at("pixels");
+  object.through = line.value("through", std::int64_t{0});
+  object.x_px = line.at("x");
+  object.y_px = line.at("y");
+  return object;
+}
+
+CameraFact CameraFrom(const json& line) {
+  CameraFact fact;
+  fact.view = line.at("view");
+  fact.camera.position = PlaceFrom(line.at("position_m"));
+  fact.camera.target = PlaceFrom(line.at("target_m"));
+  fact.camera.up = PlaceFrom(line.at("up"));
+  fact.camera.vertical_fov_rad = line.at("vertical_fov_rad");
+  fact.camera.ortho_height_m = line.at("ortho_height_m");
+  return fact;
+}
+
+}  // namespace
+
+std::vector<ObjectFact> ObjectFactsOf(const render::PictureContents& contents,
+                                      const std::vector<render::SphereInPicture>& loads) {
+  std::map<std::string, const render::SphereInPicture*> by_name;
+  for (const render::SphereInPicture& load : loads) {
+    by_name[NameOf(load.joint, load.character)] = &load;
+  }
+  std::vector<ObjectFact> facts;
+  for (const render::SeenObject& seen : contents.objects) {
+    ObjectFact fact;
+    fact.name = NameOf(InView(seen.view, seen.name), seen.character);
+    fact.pixels = seen.pixels;
+    fact.through = seen.through;
+    fact.x_px = seen.x_px;
+    fact.y_px = seen.y_px;
+    if (const auto load = by_name.find(fact.name); load != by_name.end()) {
+      fact.load_class = load->second->load_class;
+      if (std::isfinite(load->second->ratio)) fact.ratio = load->second->ratio;
+    }
+    facts.push_back(std::move(fact));
+  }
+  return facts;
+}
+
+std::vector<TextFact> TextFactsOf(const render::PictureContents& contents) {
+  std::vector<TextFact> facts;
+  for (const render::PaintedText& text : contents.texts) {
+    facts.push_back({text.part, text.text, text.x_px, text.y_px});
+  }
+  return facts;
+}
+
+std::string ToJson(const PictureFacts& facts) {
+  return fmt::format("\"floor\": {},\n {},\n {},\n {}", facts.has_floor,
+                     Lines("cameras", facts.cameras), Lines("objects", facts.objects),
+                     Lines("texts", facts.texts));
+}
+
+PictureFacts FactsFrom(const json& json) {
+  PictureFacts facts;
+  facts.has_floor = json.at("floor");
+  for (const auto& line : json.at("cameras")) facts.cameras.push_back(CameraFrom(line));
+  for (const auto& line : json.at("objects")) facts.objects.push_back(ObjectFrom(line));
+  for (const auto& line : json.at("texts")) {
+    facts.texts.push_back({line.at("part"), line.at("text"), line.at("x"), line.at("y")});
+  }
+  return facts;
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,57 @@
+/// What a golden picture shows, in names, words and numbers: the part of `golden.lock` that is
+/// compared before any pixel. Pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "render/camera/camera.h"
+#include "render/camera/spheres.h"
+#include "render/contents.h"
+
+namespace kinescope::app {
+
+/// A thing that is seen: a body, a joint's load, the centre of pressure, a robot. px of the
+/// picture.
+struct ObjectFact {
+  std::string name;  // unique: "left_knee", "left_knee of person 2", "front/body"
+  std::optional<LoadClass> load_class;   // of a load
+  std::optional<double> ratio;           // of the capacity; nullopt where it is unknown, or no load
+  std::int64_t pixels = 0, through = 0;  // see render::SeenObject
+  double x_px = 0, y_px = 0;             // its middle
+};
+
+struct TextFact {
+  std::string part, text;  // see render::PaintedText
+  double x_px = 0, y_px = 0;
+};
+
+struct CameraFact {
+  std::string view;  // "": there is one
+  render::Camera camera;
+};
+
+struct PictureFacts {
+  std::vector<ObjectFact> objects;
+  std::vector<TextFact> texts;
+  std::vector<CameraFact> cameras;
+  bool has_floor = true;
+};
+
+/// `loads`: of the scene, where they would be; their names are those of `contents`.
+std::vector<ObjectFact> ObjectFactsOf(const render::PictureContents& contents,
+                                      const std::vector<render::SphereInPicture>& loads);
+std::vector<TextFact> TextFactsOf(const render::PictureContents& contents);
+
+/// One line per object, text and camera, so that a change is readable beside the change of a
+/// program. Rounded to 0.1 px, 0.001 of a ratio, 0.1 mm.
+std::string ToJson(const PictureFacts& facts);
+
+/// @throws nlohmann::json::exception if a member is missing or of another type.
+PictureFacts FactsFrom(const nlohmann::json& json);
+
+}  // namespace kinescope::app
