@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <vector>
 
 namespace kinescope::render {
 namespace {
@@ -16,6 +18,45 @@ int PixelDifference(const std::uint8_t* a, const std::uint8_t* b) {
   }
   return largest;
 }
+
+// What a row of pixels differs by. Loops without a way out, so that the compiler looks at many
+// pixels at a time.
+class RowDifferences {
+ public:
+  explicit RowDifferences(int width) : pixels_(static_cast<std::size_t>(width)) {}
+
+  /// Returns the largest difference of a channel.
+  int Find(const std::uint8_t* a, const std::uint8_t* b, int tolerance) {
+    auto* const beyond = reinterpret_cast<std::uint8_t*>(pixels_.data());
+    const auto most = static_cast<std::uint8_t>(std::clamp(tolerance, 0, 255));
+    const std::size_t size = 4 * pixels_.size();
+    std::uint8_t largest = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint8_t low = a[i] < b[i] ? a[i] : b[i], high = a[i] < b[i] ? b[i] : a[i];
+      const auto difference = static_cast<std::uint8_t>(high - low);
+      largest = difference > largest ? difference : largest;
+      beyond[i] = difference > most ? 1 : 0;
+    }
+    return largest;
+  }
+
+  /// Counts the pixels beyond the tolerance, in row `y`: one at least is.
+  void AddTo(Comparison& result, int y) const {
+    std::uint32_t count = 0;
+    for (const std::uint32_t pixel : pixels_) count += static_cast<std::uint32_t>(pixel != 0);
+    const auto is_beyond = [](std::uint32_t pixel) { return pixel != 0; };
+    const auto first = std::find_if(pixels_.begin(), pixels_.end(), is_beyond);
+    const auto last = std::find_if(pixels_.rbegin(), pixels_.rend(), is_beyond);
+    if (result.pixels == 0) result.top = y;
+    result.pixels += count;
+    result.left = std::min(result.left, static_cast<int>(first - pixels_.begin()));
+    result.right = std::max(result.right, static_cast<int>(pixels_.rend() - last) - 1);
+    result.bottom = y;
+  }
+
+ private:
+  std::vector<std::uint32_t> pixels_;  // other than 0: beyond the tolerance, a byte per channel
+};
 
 }  // namespace
 
@@ -32,18 +73,15 @@ Comparison Compare(const Image& expected, const Image& actual, int tolerance) {
   result.left = actual.width;
   result.top = actual.height;
   result.right = result.bottom = -1;
-  std::size_t at = 0;
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(actual.width);
+  RowDifferences differences(actual.width);
   for (int y = 0; y < actual.height; ++y) {
-    for (int x = 0; x < actual.width; ++x, at += 4) {
-      const int difference = PixelDifference(&expected.rgba[at], &actual.rgba[at]);
-      result.largest_difference = std::max(result.largest_difference, difference);
-      if (difference <= tolerance) continue;
-      ++result.pixels;
-      result.left = std::min(result.left, x);
-      result.right = std::max(result.right, x);
-      result.top = std::min(result.top, y);
-      result.bottom = std::max(result.bottom, y);
-    }
+    const std::uint8_t* const a = &expected.rgba[static_cast<std::size_t>(y) * row_bytes];
+    const std::uint8_t* const b = &actual.rgba[static_cast<std::size_t>(y) * row_bytes];
+    if (std::memcmp(a, b, row_bytes) == 0) continue;
+    const int largest = differences.Find(a, b, tolerance);
+    result.largest_difference = std::max(result.largest_difference, largest);
+    if (largest > tolerance) differences.AddTo(result, y);
   }
   if (result.pixels == 0) result.left = result.top = result.right = result.bottom = 0;
   return result;

@@ -7,13 +7,12 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 #include "core/system/check.h"
 #include "render/image/new_file.h"
+#include "render/image/plain_png.h"
 
 namespace kinescope::render {
 namespace {
@@ -86,9 +85,19 @@ bool RunHeadReader(png_structp png, png_infop info, std::FILE* file) {
 }
 
 std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rbe"));
+  std::vector<std::uint8_t> bytes;
+  constexpr std::size_t kStep = 1 << 18;
+  while (file != nullptr) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kStep);
+    bytes.resize(before + std::fread(&bytes[before], 1, kStep, file.get()));
+    if (bytes.size() == before) break;
+  }
+  if (file == nullptr || std::ferror(file.get()) != 0) {
     throw std::runtime_error("cannot read " + path.string() + ": " + std::strerror(errno));
   }
   return bytes;
@@ -137,6 +146,8 @@ void WritePng(const std::filesystem::path& path, const Image& image,
 
 Image ReadPng(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = ReadWhole(path);
+  Image image;
+  if (ReadPlainPng(bytes.data(), bytes.size(), kMaxSide, image)) return image;
   png_image header = {};
   header.version = PNG_IMAGE_VERSION;
   const auto fail = [&](const std::string& why) {
@@ -149,8 +160,8 @@ Image ReadPng(const std::filesystem::path& path) {
     fail(std::to_string(header.width) + " x " + std::to_string(header.height) +
          " px is larger than the limit of " + std::to_string(kMaxSide) + " px per side");
   }
+  image.is_opaque = (header.format & PNG_FORMAT_FLAG_ALPHA) == 0;
   header.format = PNG_FORMAT_RGBA;
-  Image image;
   image.width = static_cast<int>(header.width);
   image.height = static_cast<int>(header.height);
   image.rgba.resize(PNG_IMAGE_SIZE(header));

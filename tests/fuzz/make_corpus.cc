@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "render/image/png_file.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/encode.h"
 #include "tests/fuzz/bag_builder.h"
@@ -430,6 +431,25 @@ void WriteMarkers(const fs::path& folder) {
                                      .bytes());
 }
 
+// A file, and what png_fuzz.cc makes a file of: width, channels, rows that begin with their filter.
+void WritePngs(const fs::path& folder) {
+  std::mt19937 random(28);
+  render::Image image;
+  render::SetSize(image, 9, 7);
+  for (std::uint8_t& channel : image.rgba) channel = static_cast<std::uint8_t>(random());
+  const std::vector<std::uint8_t> file = render::EncodePng(image, {{"Title", "corpus"}});
+  Write(folder / "file", {file.begin(), file.end()});
+  for (const int channels : {3, 4}) {
+    constexpr int kWidth = 11;
+    std::string rows = {static_cast<char>(kWidth - 1), static_cast<char>(channels - 3)};
+    for (const int filter : {0, 1, 2, 3, 4, 4, 3, 2, 1}) {
+      rows += static_cast<char>(filter);
+      for (int i = 0; i < kWidth * channels; ++i) rows += static_cast<char>(random());
+    }
+    Write(folder / ("filters_" + std::to_string(channels)), rows);
+  }
+}
+
 void WriteRigs(const fs::path& folder) {
   using testing::BoneNames;
   testing::RigSample sample;
@@ -484,6 +504,7 @@ int main(int argc, char** argv) {
   RandomValues streams(21);
   WriteStreams(folder / "framing", streams);
   WriteBags(folder / "bag");
+  WritePngs(folder / "png");
   WriteRigs(folder / "rig");
   WriteMarkers(folder / "marker");
   WriteLoads(folder / "loads");

@@ -91,7 +91,7 @@ TEST_F(GoldenCheck, DetectsDifferentPixelsAndShowsThem) {
   AddToCase("background: '#e0e0e0'");
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("pixels differ"), HasSubstr("background: added, #e0e0e0"),
+  EXPECT_THAT(result.out, AllOf(HasSubstr("pixels: "), HasSubstr("background: added, #e0e0e0"),
                                 HasSubstr("says nothing about the program")));
   EXPECT_TRUE(fs::exists(case_ / "out/bend.actual.png"));
   EXPECT_TRUE(fs::exists(case_ / "out/bend.diff.png"));
@@ -327,10 +327,8 @@ TEST_F(GoldenCheck, TellsGithubWhereAndObeysNothing) {
 }
 
 TEST_F(GoldenCheck, WritesACaseThatItReads) {
-  const ProgramResult written = Golden({"new", case_, "side", "--source=demo:lift", "--time=1",
-                                        "--size=64x64", "--robot=a.urdf", "--title=a: 'b' #c"});
-  ExpectRefusal(written, "a.urdf");
-  EXPECT_FALSE(fs::exists(case_ / "side.yaml")) << "it could not be drawn";
+  ExpectRefusal(Golden({"new", case_, "side", "--source=demo:lift", "--loads=skin"}), "use both");
+  EXPECT_FALSE(fs::exists(case_ / "side.yaml")) << "a check would refuse it";
   const ProgramResult result = Golden({"new", case_, "side", "--source=demo:lift", "--time=1",
                                        "--size=64x64", "--title=a: 'b' #c"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -358,29 +356,75 @@ TEST_F(GoldenCheck, ListsTheCasesWithTheirPurposes) {
                                 HasSubstr("not accepted the purpose")));
 }
 
-TEST(GoldenCompare, SaysWhetherTwoPicturesAreTheSame) {
-  const TempFolder folder;
-  const std::string one = folder / "one.png", other = folder / "other.png";
-  render::Image image;
-  image.width = image.height = 16;
-  image.rgba.assign(16 * 16 * 4, 200);
-  render::WritePng(one, image);
-  render::WritePng(other, image);
-  EXPECT_EQ(Golden({"compare", one, other}).out, "the same pixels\n");
-  image.rgba[0] = 90;
-  render::WritePng(other, image);
-  const std::string diff = folder / "diff.png";
-  const ProgramResult differs = Golden({"compare", one, other, "--out", diff});
-  EXPECT_EQ(differs.exit_code, 1);
-  EXPECT_THAT(differs.out, HasSubstr("1 pixels differ"));
-  EXPECT_TRUE(fs::exists(diff));
-  image.height = 8;
-  image.rgba.resize(16 * 8 * 4);
-  render::WritePng(other, image);
-  EXPECT_THAT(Golden({"compare", one, other}).out, HasSubstr("sizes differ: 16x16 and 16x8"));
-  std::ofstream(other) << "no picture";
-  ExpectRefusal(Golden({"compare", one, other}), "other.png");
-  ExpectRefusal(Golden({"compare", one}), "other");
+class GoldenCompare : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    image_.width = image_.height = 64;
+    image_.rgba.assign(64 * 64 * 4, 200);
+    render::WritePng(one_, image_);
+  }
+  ProgramResult Compare(const std::vector<std::string>& more = {}) {
+    render::WritePng(other_, image_);
+    std::vector<std::string> arguments = {"compare", one_, other_};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Golden(arguments);
+  }
+
+  TempFolder folder_;
+  const std::string one_ = folder_ / "one.png", other_ = folder_ / "other.png";
+  render::Image image_;
+};
+
+TEST_F(GoldenCompare, SaysThatPixelsAreTheSame) {
+  const ProgramResult result = Compare();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "the same pixels\n");
+}
+
+TEST_F(GoldenCompare, SaysThatPicturesAreTheSameToTheEye) {
+  for (std::size_t i = 0; i < image_.rgba.size(); i += 8) image_.rgba[i] += 1;
+  const ProgramResult result = Compare();
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out,
+              ::testing::StartsWith("the same to the eye: largest difference 1 level\n"));
+}
+
+TEST_F(GoldenCompare, NamesTheLayersThatDifferWithFoundValueAndLimit) {
+  for (std::size_t i = 0; i < 40; ++i) image_.rgba[4 * (64 * 20 + i)] = 90;
+  const std::string heat_map = folder_ / "heat.png";
+  const ProgramResult result = Compare({"--out", heat_map});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out,
+              AllOf(::testing::StartsWith("DIFFERS: pixels, structure\n"),
+                    HasSubstr("pixels     DIFFERS  40 beyond 0.05 of colour distance (0.98 %, "),
+                    HasSubstr("largest cluster 40x1 px at x 0, y 20 (40 pixels)"),
+                    HasSubstr("structure  DIFFERS  worst block 0."), HasSubstr("(limit 0.975)"),
+                    HasSubstr("light      same     less than 0.01 levels off")));
+  EXPECT_EQ(render::ReadPng(heat_map).width, 64);
+}
+
+TEST_F(GoldenCompare, PrintsItsNumbersAsJson) {
+  for (std::uint8_t& channel : image_.rgba) channel = channel == 200 ? 197 : channel;
+  for (std::size_t i = 3; i < image_.rgba.size(); i += 4) image_.rgba[i] = 200;
+  const ProgramResult result = Compare({"--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  const auto verdict = nlohmann::json::parse(result.out);
+  EXPECT_EQ(verdict.at("text"), "DIFFERS: light");
+  EXPECT_FALSE(verdict.at("byte_equal"));
+  EXPECT_EQ(verdict.at("pixels").at("changed"), 0);
+  EXPECT_EQ(verdict.at("structure").at("limit"), 0.975);
+  EXPECT_NEAR(verdict.at("light").at("worst").at("red"), -2.35, 0.4);
+}
+
+TEST_F(GoldenCompare, SaysThatSizesDifferAndRefusesWhatItCannotRead) {
+  image_.height = 8;
+  image_.rgba.resize(64 * 8 * 4);
+  const ProgramResult result = Compare();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("size       DIFFERS  expected 64x64 px, found 64x8 px"));
+  std::ofstream(other_) << "no picture";
+  ExpectRefusal(Golden({"compare", one_, other_}), "other.png");
+  ExpectRefusal(Golden({"compare", one_}), "other");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <stdexcept>
@@ -11,7 +12,8 @@
 #include "core/system/starts_with.h"
 #include "core/system/stop_signal.h"
 #include "core/system/words.h"
-#include "render/image/compare.h"
+#include "render/image/heat_map.h"
+#include "render/image/picture_difference.h"
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_composite.h"
 
@@ -90,7 +92,10 @@ class CaseCheck {
     verdict_.outcome = Outcome::kDiffers;
     WriteDrawing();
     if (!picture || verdict_.is_byte_equal) return;
-    const render::Image difference = render::DiffImage(*picture, drawing_.image);
+    if (difference_.actual_width == 0) {
+      difference_ = render::FindDifference(*picture, drawing_.image);
+    }
+    const render::Image difference = render::HeatMap(*picture, difference_);
     render::WritePng(DifferenceOf(settings_.out, found_.name), difference);
     if (picture->width != now.width || picture->height != now.height) return;
     render::WritePng(CompositeOf(settings_.out, found_.name),
@@ -125,8 +130,8 @@ class CaseCheck {
     verdict_.layers.push_back({"objects",
                                changed == 0
                                    ? fmt::format("all {} the same", all)
-                                   : Counted(changed, "change") + fmt::format(" of {}", all),
-                               fmt::format("0; {:.1f} px", kPlaceLimitPx), changed == 0});
+                                   : fmt::format("{} among {}", Counted(changed, "change"), all),
+                               changed == 0});
   }
 
   // What the picture itself says against the state that it was drawn from.
@@ -181,14 +186,54 @@ class CaseCheck {
                  "pixels differ from those of golden.lock; how many is not known without the "
                  "accepted picture");
     }
-    const render::Comparison pixels = render::Compare(*picture, drawing_.image);
-    verdict_.layers.push_back({"pixels", render::Describe(pixels, drawing_.image),
-                               fmt::format("{} levels", render::kChannelTolerance),
-                               pixels.equal()});
-    if (!pixels.equal()) return Add(FindingKind::kPixels, verdict_.layers.back().found);
-    if (settings_.is_strict) {
-      Add(FindingKind::kPixels, "not byte-equal: " + verdict_.layers.back().found);
+    difference_ = render::FindDifference(*picture, drawing_.image);
+    for (const render::LayerVerdict& layer : JudgeLayers()) {
+      verdict_.layers.push_back({layer.layer, layer.text, layer.passes});
+      if (!layer.passes) AddOfLayer(layer);
     }
+    if (settings_.is_strict) {
+      Add(FindingKind::kPixels, fmt::format("not byte-equal: the largest difference is {} levels",
+                                            difference_.levels.largest_difference));
+    }
+  }
+
+  // In the accepted environment no pixel may differ by more than rounding does; in another one,
+  // pictures need only be the same to the eye.
+  std::vector<render::LayerVerdict> JudgeLayers() const {
+    std::vector<render::LayerVerdict> layers = render::JudgeLayers(difference_);
+    const render::Comparison& levels = difference_.levels;
+    const bool is_accepted_environment = verdict_.changes.environment.empty();
+    layers.erase(std::remove_if(layers.begin(), layers.end(),
+                                [](const auto& layer) { return layer.layer == "size"; }),
+                 layers.end());
+    for (render::LayerVerdict& layer : layers) {
+      if (layer.layer != "pixels" || !is_accepted_environment || levels.equal()) continue;
+      layer.passes = false;
+      layer.text = fmt::format("{}; {} by more than {} levels", layer.text,
+                               Counted(static_cast<std::uint64_t>(levels.pixels), "pixel"),
+                               render::kChannelTolerance);
+    }
+    return layers;
+  }
+
+  void AddOfLayer(const render::LayerVerdict& layer) {
+    const bool is_light = layer.layer == "light", is_structure = layer.layer == "structure";
+    Finding finding{is_light       ? FindingKind::kLight
+                    : is_structure ? FindingKind::kStructure
+                                   : FindingKind::kPixels,
+                    kWholePicture,
+                    "",
+                    "",
+                    0,
+                    layer.layer + ": " + layer.text};
+    render::Tile place = is_structure ? difference_.structure.worst_block : render::Tile();
+    const auto& clusters = difference_.pixels.clusters;
+    if (!is_light && !is_structure && !clusters.empty()) place = clusters.front().box;
+    if (!render::IsEmpty(place)) {
+      finding.x_px = place.x + place.width / 2.0;
+      finding.y_px = place.y + place.height / 2.0;
+    }
+    verdict_.findings.push_back(std::move(finding));
   }
 
   void AddEnvironment() {
@@ -211,6 +256,7 @@ class CaseCheck {
   const CheckSettings& settings_;
   const std::map<std::string, std::string>& environment_;
   GoldenDrawing drawing_;
+  render::PictureDifference difference_;
   CaseVerdict verdict_;
 };
 

@@ -276,11 +276,9 @@ struct CompareOptions {
 int Compare(const CompareOptions& options) {
   const PictureVerdict verdict = ComparePictures(*options.one, *options.other, *options.out);
   if (*options.json) {
-    Print("{}\n", JsonText(nlohmann::json{{"same", verdict.is_same},
-                                          {"byte_equal", verdict.is_byte_equal},
-                                          {"text", verdict.text}}));
+    Print("{}\n", JsonText(ToJson(verdict)));
   } else {
-    Print("{}\n", verdict.text);
+    for (const std::string& line : LinesOf(verdict)) Print("{}\n", line);
   }
   return verdict.is_same ? 0 : 1;
 }
@@ -289,14 +287,18 @@ Command CompareCommand() {
   const auto values = std::make_shared<CompareOptions>();
   Command compare;
   compare.name = "compare";
-  compare.about = "Compares two PNG pictures";
-  compare.options("one", values->one, "the first picture, a PNG file");
-  compare.options("other", values->other, "the second picture, a PNG file");
-  compare.options("out", values->out, "picture of the differences, written if there are any");
+  compare.about = "Compares two PNG pictures by pixels, structure and light";
+  compare.options("one", values->one, "the expected picture, a PNG file");
+  compare.options("other", values->other, "the actual picture, a PNG file");
+  compare.options("out", values->out,
+                  "PNG file of the heat map, written if they differ: changed pixels in yellow to "
+                  "dark purple, smoothed edges in blue");
   compare.options("json", values->json, "print the result as JSON");
   compare.positionals = {"one", "other"};
   compare.required = {"one", "other"};
-  compare.footer = "Exit code: 0 the same, 1 they differ, 2 they could not be compared.";
+  compare.footer =
+      "Exit code: 0 the same pixels or the same to the eye, 1 they differ, 2 they could not be "
+      "compared.";
   compare.run = [values](options::OptionList&) { return Compare(*values); };
   return compare;
 }

@@ -1,20 +1,32 @@
-/// `golden compare`: two pictures of any origin. Pure but for files; one thread.
+/// `golden compare`: two pictures of any origin. Pure but for files; any thread.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
+
+#include "render/image/picture_difference.h"
 
 namespace kinescope::app {
 
 struct PictureVerdict {
-  bool is_same = false;
-  bool is_byte_equal = false;  // each pixel, also where it is invisible
-  std::string text;            // one line
+  render::PictureDifference difference;
+  bool is_same = false;  // each layer keeps its limit
+  std::string headline;  // "the same pixels", "the same to the eye: ..." or "DIFFERS: ..."
 };
 
-/// @param out  picture of the differences, written if there are any and it is not empty
+/// @param heat_map  file of the heat map, written if the pictures are not the same and it is not
+///                  empty
 /// @throws std::runtime_error with the file and the reason.
 PictureVerdict ComparePictures(const std::filesystem::path& one, const std::filesystem::path& other,
-                               const std::filesystem::path& out);
+                               const std::filesystem::path& heat_map);
+
+/// The headline and, unless the pixels are the same, a line for each layer with what it found and
+/// its limit.
+std::vector<std::string> LinesOf(const PictureVerdict& verdict);
+
+/// As docs/json.md describes it.
+nlohmann::json ToJson(const PictureVerdict& verdict);
 
 }  // namespace kinescope::app

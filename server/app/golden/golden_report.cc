@@ -240,12 +240,12 @@ class ReportWriter {
   void AddLayers(const CaseVerdict& verdict) {
     if (verdict.layers.empty()) return;
     html_ +=
-        "<table class=\"layers\"><thead><tr><th>layer</th><th>found</th><th>limit</th></tr>"
+        "<table class=\"layers\"><thead><tr><th>layer</th><th>found</th></tr>"
         "</thead><tbody>";
     for (const Layer& layer : verdict.layers) {
-      html_ += fmt::format("<tr class=\"{}\"><th>{} {}</th><td>{}</td><td>{}</td></tr>",
+      html_ += fmt::format("<tr class=\"{}\"><th>{} {}</th><td>{}</td></tr>",
                            layer.passes ? "" : "fails", layer.passes ? "✓" : "✕", layer.name,
-                           EscapeHtml(layer.found), EscapeHtml(layer.limit));
+                           EscapeHtml(layer.found));
     }
     html_ += "</tbody></table>";
   }

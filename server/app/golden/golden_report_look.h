@@ -33,7 +33,7 @@ table { border-collapse: collapse; width: 100%; font-size: 13px; }
 th { text-align: left; } thead th { color: var(--quiet); font-weight: normal; font-size: 12px; }
 td, th { padding: 4px 12px 4px 0; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
 tr:last-child td, tr:last-child th { border-bottom: 0; }
-table.summary td:nth-child(2), table.summary td:nth-child(4), thead th, .layers th { white-space: nowrap; } .layers td:last-child { white-space: nowrap; }
+table.summary td:nth-child(2), table.summary td:nth-child(4), thead th, .layers th { white-space: nowrap; }
 details { margin-top: 8px; font-size: 13px; } summary { cursor: pointer; color: var(--quiet); }
 .number { color: var(--quiet); width: 28px; }
 .tag { font-size: 11.5px; padding: 1px 7px; border-radius: 4px; white-space: nowrap; background: var(--code); }

@@ -58,10 +58,8 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
   for (const Finding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
   line["layers"] = Json::array();
   for (const Layer& layer : verdict.layers) {
-    line["layers"].push_back({{"name", layer.name},
-                              {"found", layer.found},
-                              {"limit", layer.limit},
-                              {"passes", layer.passes}});
+    line["layers"].push_back(
+        {{"name", layer.name}, {"found", layer.found}, {"passes", layer.passes}});
   }
   line["cause"] = verdict.outcome == Outcome::kDiffers && verdict.now
                       ? Json(CauseOf(verdict.changes))

@@ -28,8 +28,7 @@ const char* LoudName(Outcome outcome);
 /// One of the ways of comparing, with its number.
 struct Layer {
   std::string name;   // "objects", "structure", "light", "pixels"
-  std::string found;  // "3 of 29 changed"
-  std::string limit;  // "0"
+  std::string found;  // with its limit
   bool passes = true;
 };
 
