@@ -247,7 +247,6 @@ void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const C
 void ModuleRenderer::RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
                                        const PictureSpec& spec) {
   PictureSpec opaque = spec;
-  opaque.look.is_transparent = false;
   opaque.look.background = Rgb{0, 0, 0};
   SetSize(over_black_, image.width, image.height);
   RenderOpaque(over_black_, state, camera, opaque);

@@ -85,6 +85,7 @@ TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhi
     for (const int supersample : {1, 2, 4}) {
       PictureSpec spec = SmallView(supersample);
       spec.look.theme = theme;
+      spec.overlays = theme == Theme::kLight;  // texts are those of the theme, or suit white
       spec.look.ghosts.push_back({state_.people[0], 0.4});
       for (urdf::Pose& link : spec.look.ghosts[0].person.links) link.position.y() += 0.4;
       PictureSpec white = spec;
@@ -109,6 +110,31 @@ TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhi
       EXPECT_GT(empty, 1000);
       EXPECT_GT(soft, 1000) << "floor, shadows, ghost";
     }
+  }
+}
+
+// For slides of that theme: what is behind it is not known.
+TEST_F(SceneLookDrawing, HasTextsOfItsThemeWhereItIsTransparent) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    PictureSpec spec = SmallView();
+    spec.width = 640;
+    spec.height = 360;
+    spec.overlays = true;
+    spec.title = "MMMMMMMM";
+    spec.look.theme = theme;
+    spec.look.is_transparent = true;
+    const Image image = Draw(spec);
+    int opaque = 0, of_theme = 0;
+    for (int y = 8; y < 26; ++y) {  // the title
+      for (int x = 8; x < 120; ++x) {
+        const std::uint8_t* const pixel = &image.rgba[4 * static_cast<std::size_t>(y * 640 + x)];
+        if (pixel[3] < 250) continue;
+        ++opaque;
+        if ((pixel[1] > 128) == (theme == Theme::kDark)) ++of_theme;
+      }
+    }
+    EXPECT_GT(opaque, 50);
+    EXPECT_EQ(of_theme, opaque);
   }
 }
 
