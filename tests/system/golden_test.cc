@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "render/image/png_file.h"
+#include "server/app/golden/golden_lock.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
@@ -354,6 +357,126 @@ TEST_F(GoldenCheck, ListsTheCasesWithTheirPurposes) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, AllOf(HasSubstr("bend                     accepted"),
                                 HasSubstr("not accepted the purpose")));
+}
+
+// What people break, and how it must be told. Each of them changes the accepted picture, the case
+// or what golden.lock says that was seen.
+class GoldenMutation : public GoldenCheck {
+ protected:
+  void SetUp() override {
+    WriteCase("bend",
+              "source: demo:lift\ntime: 2\ncamera: 0.3,-3.4,1.1:0.3,0,0.8\ntitle: lift 60 %\n");
+    ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
+  }
+  void ExpectTold(const std::string& words) const {
+    const ProgramResult result = Check();
+    EXPECT_EQ(result.exit_code, 1) << words;
+    EXPECT_THAT(result.out, HasSubstr(words));
+  }
+  // As if this picture had been accepted.
+  void Accept(const render::Image& image) const {
+    render::WritePng(case_ / "bend.png", image);
+    app::GoldenLock lock = app::ReadLock(case_ / "golden.lock");
+    lock["bend"].pixels_sha256 = app::PixelsHash(image);
+    app::WriteLock(case_ / "golden.lock", lock);
+  }
+  void ChangeInCase(const std::string& before, const std::string& now) const {
+    std::string yaml = testing::ReadFile(case_ / "bend.yaml");
+    const std::size_t at = yaml.find(before);
+    ASSERT_NE(at, std::string::npos);
+    std::ofstream(case_ / "bend.yaml") << yaml.replace(at, before.size(), now);
+  }
+  // `change`: of a level, by the index of its byte.
+  template <class Change>
+  void ChangePixels(const Change& change) const {
+    render::Image image = render::ReadPng(case_ / "bend.png");
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+      if (i % 4 == 3) continue;
+      const int level = static_cast<int>(change(int{image.rgba[i]}, i));
+      image.rgba[i] = static_cast<std::uint8_t>(std::clamp(level, 0, 255));
+    }
+    Accept(image);
+  }
+};
+
+TEST_F(GoldenMutation, OfAClassIsNamed) {
+  AddToCase("class_limits: 0.3,0.85");
+  ExpectTold("right_knee: expected high (red), found medium (orange)");
+}
+
+TEST_F(GoldenMutation, OfAMissingSphereIsNamed) {
+  app::GoldenLock lock = app::ReadLock(case_ / "golden.lock");
+  auto& objects = lock["bend"].facts.objects;
+  objects.push_back(objects.front());
+  objects.back().name = "left_little_finger";
+  app::WriteLock(case_ / "golden.lock", lock);
+  ExpectTold("left_little_finger: is missing");
+}
+
+TEST_F(GoldenMutation, OfASphereThatMovedByThreePixelsIsNamed) {
+  app::GoldenLock lock = app::ReadLock(case_ / "golden.lock");
+  for (app::ObjectFact& object : lock["bend"].facts.objects) {
+    if (object.name == "left_wrist") object.x_px += 3;
+  }
+  app::WriteLock(case_ / "golden.lock", lock);
+  ExpectTold("left_wrist: moved by 3.0 px");
+}
+
+TEST_F(GoldenMutation, OfWhatIsHiddenIsNamed) {
+  AddToCase("hide: cop");
+  ExpectTold("centre of pressure: is missing");
+}
+
+TEST_F(GoldenMutation, OfALegendAndOfOneDigitIsNamed) {
+  AddToCase("class_limits: 0.3,0.65");
+  ChangeInCase("lift 60", "lift 80");
+  ExpectTold("legend: expected “≤ 60 %”, found “≤ 65 %”");
+  ExpectTold("title: expected “lift 60 %”, found “lift 80 %”");
+}
+
+TEST_F(GoldenMutation, OfAPoseIsNamed) {
+  ChangeInCase("time: 2", "time: 2.1");
+  ExpectTold("objects moved by up to ");
+}
+
+TEST_F(GoldenMutation, OfTheFloorIsNamed) {
+  AddToCase("floor: off");
+  ExpectTold("floor: expected a floor, found none");
+}
+
+TEST_F(GoldenMutation, OfACameraByHalfADegreeIsNamed) {
+  ChangeInCase("0.3,-3.4,1.1:", "0.3297,-3.3999,1.1:");
+  ExpectTold("camera: turned by 0.50°");
+}
+
+TEST_F(GoldenMutation, OfLightIsNamed) {
+  ChangePixels([](int level, std::size_t) { return std::lround(level / 0.99); });
+  ExpectTold("light: ");
+}
+
+TEST_F(GoldenMutation, OfSharpnessIsNamed) {
+  const render::Image sharp = render::ReadPng(case_ / "bend.png");
+  const std::size_t row = 4 * static_cast<std::size_t>(sharp.width);
+  ChangePixels([&](int level, std::size_t i) {
+    if (i < row || i + row + 4 >= sharp.rgba.size()) return level;
+    const int around =
+        sharp.rgba[i - row] + sharp.rgba[i + row] + sharp.rgba[i - 4] + sharp.rgba[i + 4];
+    return (around + 4 * level) / 8;
+  });
+  ExpectTold("structure: ");
+}
+
+TEST_F(GoldenMutation, OfRoundingPasses) {
+  ChangePixels([](int level, std::size_t i) { return level + (i / 3 % 2 == 0 ? 1 : -1); });
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("same (within the limits)"));
+}
+
+TEST_F(GoldenMutation, OfTheFileAlonePasses) {
+  const render::Image image = render::ReadPng(case_ / "bend.png");
+  render::WritePng(case_ / "bend.png", image, {{"Comment", "other bytes"}});
+  EXPECT_EQ(Check({"--strict"}).exit_code, 0);
 }
 
 class GoldenCompare : public ::testing::Test {

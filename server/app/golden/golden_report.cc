@@ -81,6 +81,15 @@ std::vector<const CaseVerdict*> InOrder(const std::vector<CaseVerdict>& verdicts
   return all;
 }
 
+// Those of layers stand in their table.
+std::vector<Finding> WithoutLayers(const std::vector<Finding>& findings) {
+  std::vector<Finding> others;
+  for (const Finding& finding : findings) {
+    if (finding.kind < FindingKind::kLight) others.push_back(finding);
+  }
+  return others;
+}
+
 class ReportWriter {
  public:
   ReportWriter(const std::vector<CaseVerdict>& verdicts, const ReportSettings& settings)
@@ -213,7 +222,7 @@ class ReportWriter {
 
   void AddWords(const CaseVerdict& verdict) {
     html_ += "<div class=\"two\"><ul class=\"words\">";
-    for (const std::string& line : Summarize(verdict.findings)) {
+    for (const std::string& line : Summarize(WithoutLayers(verdict.findings))) {
       html_ += fmt::format("<li>{}</li>\n", WithDots(line));
     }
     html_ += "</ul><div>";
