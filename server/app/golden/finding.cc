@@ -42,10 +42,10 @@ class Findings {
     Add(kind, object, fmt::format("expected {}{}, found {}", what, expected, actual), expected,
         actual, amount);
   }
-  std::vector<Finding> Take() { return std::move(all_); }
+  std::vector<GoldenFinding> Take() { return std::move(all_); }
 
  private:
-  std::vector<Finding> all_;
+  std::vector<GoldenFinding> all_;
   std::optional<double> x_px_, y_px_;
 };
 
@@ -200,23 +200,23 @@ void CompareAllCameras(const PictureFacts& expected, const PictureFacts& actual,
 
 constexpr std::size_t kMany = 5;  // objects, which are then told together
 
-bool IsOfPicture(const Finding& finding) { return finding.object == kWholePicture; }
+bool IsOfPicture(const GoldenFinding& finding) { return finding.object == kWholePicture; }
 
-std::string ClauseOf(const Finding& finding) {
+std::string ClauseOf(const GoldenFinding& finding) {
   const std::size_t prefix = finding.object.size() + 2;
   return IsOfPicture(finding) ? finding.text : finding.text.substr(prefix);
 }
 
 // "right_knee, l5_s1 and 6 more".
-std::string SomeNames(const std::vector<const Finding*>& findings) {
+std::string SomeNames(const std::vector<const GoldenFinding*>& findings) {
   std::string names = findings[0]->object + ", " + findings[1]->object;
   return findings.size() == 2 ? names : fmt::format("{} and {} more", names, findings.size() - 2);
 }
 
 // "15 loads (l5_s1, ...): expected unknown (grey), found 12 low (green), 3 high (red)".
-std::string ManyClasses(const std::vector<const Finding*>& findings) {
+std::string ManyClasses(const std::vector<const GoldenFinding*>& findings) {
   std::map<std::string, std::map<std::string, int>> found;  // by what was expected
-  for (const Finding* finding : findings) ++found[finding->expected][finding->actual];
+  for (const GoldenFinding* finding : findings) ++found[finding->expected][finding->actual];
   std::string text = fmt::format("{} loads ({}): ", findings.size(), SomeNames(findings));
   const char* separator = "";
   for (const auto& [expected, counts] : found) {
@@ -232,8 +232,8 @@ std::string ManyClasses(const std::vector<const Finding*>& findings) {
 }
 
 // @pre `findings` are of one kind, the largest amount first.
-std::string Many(const std::vector<const Finding*>& findings) {
-  const Finding& worst = *findings.front();
+std::string Many(const std::vector<const GoldenFinding*>& findings) {
+  const GoldenFinding& worst = *findings.front();
   const std::size_t count = findings.size();
   switch (worst.kind) {
     case FindingKind::kClass: return ManyClasses(findings);
@@ -278,25 +278,26 @@ const char* Name(FindingKind kind) {
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
-void SortWorstFirst(std::vector<Finding>& findings) {
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
-    if (a.kind != b.kind) return a.kind < b.kind;
-    return std::abs(a.amount) > std::abs(b.amount);
-  });
+void SortWorstFirst(std::vector<GoldenFinding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const GoldenFinding& a, const GoldenFinding& b) {
+                     if (a.kind != b.kind) return a.kind < b.kind;
+                     return std::abs(a.amount) > std::abs(b.amount);
+                   });
 }
 
-std::vector<std::string> Summarize(const std::vector<Finding>& findings) {
-  std::map<FindingKind, std::vector<const Finding*>> by_kind;
-  for (const Finding& finding : findings) {
+std::vector<std::string> Summarize(const std::vector<GoldenFinding>& findings) {
+  std::map<FindingKind, std::vector<const GoldenFinding*>> by_kind;
+  for (const GoldenFinding& finding : findings) {
     if (!IsOfPicture(finding)) by_kind[finding.kind].push_back(&finding);
   }
-  const auto is_many = [&](const Finding& finding) {
+  const auto is_many = [&](const GoldenFinding& finding) {
     return !IsOfPicture(finding) && CanBeToldTogether(finding.kind) &&
            by_kind[finding.kind].size() >= kMany;
   };
   std::vector<std::string> lines, of_picture;
   std::map<std::string, std::size_t> line_of;  // of objects
-  for (const Finding& finding : findings) {
+  for (const GoldenFinding& finding : findings) {
     if (IsOfPicture(finding)) {
       (finding.kind == FindingKind::kPicture ? lines : of_picture).push_back(finding.text);
     } else if (is_many(finding)) {
@@ -313,7 +314,7 @@ std::vector<std::string> Summarize(const std::vector<Finding>& findings) {
   return lines;
 }
 
-std::vector<Finding> Compare(const PictureFacts& expected, const PictureFacts& actual) {
+std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual) {
   Findings findings;
   CompareObjects(expected, actual, findings);
   CompareTexts(expected, actual, findings);
@@ -323,7 +324,7 @@ std::vector<Finding> Compare(const PictureFacts& expected, const PictureFacts& a
                        actual.has_floor ? "a floor" : "none");
   }
   CompareAllCameras(expected, actual, findings);
-  std::vector<Finding> all = findings.Take();
+  std::vector<GoldenFinding> all = findings.Take();
   SortWorstFirst(all);
   return all;
 }

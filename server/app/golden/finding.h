@@ -30,7 +30,7 @@ enum class FindingKind {
 /// "class", "missing", ...: as in JSON.
 const char* Name(FindingKind kind);
 
-struct Finding {
+struct GoldenFinding {
   FindingKind kind = FindingKind::kPixels;
   std::string object;            // "left_knee", "legend", "camera"; "picture": all of it
   std::string expected, actual;  // "": does not apply
@@ -39,19 +39,19 @@ struct Finding {
   std::optional<double> x_px = std::nullopt, y_px = std::nullopt;  // where it is, or was
 };
 
-/// Finding::object of what concerns all of it.
+/// GoldenFinding::object of what concerns all of it.
 inline constexpr char kWholePicture[] = "picture";
 
 /// A place may differ by this, px.
 inline constexpr double kPlaceLimitPx = 2;
 
 /// What a person would name: objects, texts, cameras, floor. The worst first.
-std::vector<Finding> Compare(const PictureFacts& expected, const PictureFacts& actual);
+std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual);
 
 /// For people: one line per object, and one for many objects with the same kind of change. In the
 /// order of the findings; those of the whole picture last.
-std::vector<std::string> Summarize(const std::vector<Finding>& findings);
+std::vector<std::string> Summarize(const std::vector<GoldenFinding>& findings);
 
-void SortWorstFirst(std::vector<Finding>& findings);
+void SortWorstFirst(std::vector<GoldenFinding>& findings);
 
 }  // namespace kinescope::app

@@ -218,14 +218,14 @@ class CaseCheck {
 
   void AddOfLayer(const render::LayerVerdict& layer) {
     const bool is_light = layer.layer == "light", is_structure = layer.layer == "structure";
-    Finding finding{is_light       ? FindingKind::kLight
-                    : is_structure ? FindingKind::kStructure
-                                   : FindingKind::kPixels,
-                    kWholePicture,
-                    "",
-                    "",
-                    0,
-                    layer.layer + ": " + layer.text};
+    GoldenFinding finding{is_light       ? FindingKind::kLight
+                          : is_structure ? FindingKind::kStructure
+                                         : FindingKind::kPixels,
+                          kWholePicture,
+                          "",
+                          "",
+                          0,
+                          layer.layer + ": " + layer.text};
     render::Tile place = is_structure ? difference_.structure.worst_block : render::Tile();
     const auto& clusters = difference_.pixels.clusters;
     if (!is_light && !is_structure && !clusters.empty()) place = clusters.front().box;

@@ -40,7 +40,7 @@ void Enlarge(const Image& from, const Tile& part, const Tile& to, Image& into) {
 }  // namespace
 
 std::optional<Tile> WorstPart(const CaseVerdict& verdict) {
-  for (const Finding& finding : verdict.findings) {
+  for (const GoldenFinding& finding : verdict.findings) {
     if (!finding.x_px || !finding.y_px || !verdict.now) continue;
     const int whole_width = verdict.now->width, whole_height = verdict.now->height;
     const auto side = [](int whole) {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
+#include "core/picture_limits.h"
 #include "core/system/json_text.h"
 #include "core/system/sha256.h"
 #include "render/font.h"
@@ -18,6 +21,7 @@ using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
 constexpr int kLockSchema = 1;
+constexpr std::uintmax_t kMostBytes = 256 << 20;
 
 std::string InputLines(const std::vector<InputFact>& inputs) {
   std::string lines = "\"inputs\": [";
@@ -63,8 +67,8 @@ AcceptedCase AcceptedFrom(const json& json) {
   AcceptedCase accepted;
   accepted.pixels_sha256 = json.at("pixels");
   accepted.file_sha256 = json.at("file");
-  accepted.width = json.at("width");
-  accepted.height = json.at("height");
+  accepted.width = static_cast<int>(CountFrom(json.at("width"), kMaxPictureSide));
+  accepted.height = static_cast<int>(CountFrom(json.at("height"), kMaxPictureSide));
   for (const auto& [name, value] : json.at("options").items()) accepted.options[name] = value;
   for (const auto& input : json.at("inputs")) {
     accepted.inputs.push_back({input.at("option"), input.at("name"), input.value("sha256", "")});
@@ -79,25 +83,35 @@ AcceptedCase AcceptedFrom(const json& json) {
 GoldenLock ReadLock(const fs::path& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path.string() + ": cannot be read (no permission)");
-  GoldenLock lock;
   try {
-    const json document = json::parse(file);
-    if (const int schema = document.at("schema"); schema != kLockSchema) {
-      throw std::runtime_error(
-          fmt::format("{}: schema {}; this version reads {}", path.string(), schema, kLockSchema));
-    }
-    for (const auto& [name, accepted] : document.at("cases").items()) {
-      lock[name] = AcceptedFrom(accepted);
-    }
-  } catch (const std::ios_base::failure&) {
-    throw std::runtime_error(path.string() + ": cannot be read (a folder?)");
-  } catch (const json::exception& error) {
+    return ParseLock(ReadSmallFile(path));
+  } catch (const std::exception& error) {
     throw std::runtime_error(
         fmt::format("{}: {}; restore it from version control", path.string(), error.what()));
   }
+}
+
+GoldenLock ParseLock(const std::string& text) {
+  const json document = json::parse(text);
+  if (document.at("schema") != kLockSchema) {
+    throw std::runtime_error(fmt::format("schema {}; this version reads {}",
+                                         JsonText(document.at("schema")), kLockSchema));
+  }
+  GoldenLock lock;
+  for (const auto& [name, accepted] : document.at("cases").items()) {
+    lock[name] = AcceptedFrom(accepted);
+  }
   return lock;
+}
+
+std::string ReadSmallFile(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error("is no file");
+  if (fs::file_size(path) > kMostBytes) {
+    throw std::runtime_error(fmt::format("has more than {} bytes", kMostBytes));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot be read (no permission)");
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 void WriteLock(const fs::path& path, const GoldenLock& lock) {

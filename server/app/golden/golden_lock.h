@@ -48,6 +48,11 @@ std::string PixelsHash(const render::Image& image);
 /// Back-end, driver, font: what pictures depend on besides program, case and inputs.
 std::map<std::string, std::string> EnvironmentOf(const render::RendererInfo& renderer);
 
+/// The content of `golden.lock`. @throws std::exception with the reason.
+GoldenLock ParseLock(const std::string& text);
+/// A file of JSON, of at most 256 MiB. @throws std::runtime_error with the reason alone.
+std::string ReadSmallFile(const std::filesystem::path& path);
+
 /// Empty if there is no such file. @throws std::runtime_error with file and reason.
 GoldenLock ReadLock(const std::filesystem::path& path);
 /// @throws std::runtime_error with file and reason.

@@ -82,9 +82,9 @@ std::vector<const CaseVerdict*> InOrder(const std::vector<CaseVerdict>& verdicts
 }
 
 // Those of layers stand in their table.
-std::vector<Finding> WithoutLayers(const std::vector<Finding>& findings) {
-  std::vector<Finding> others;
-  for (const Finding& finding : findings) {
+std::vector<GoldenFinding> WithoutLayers(const std::vector<GoldenFinding>& findings) {
+  std::vector<GoldenFinding> others;
+  for (const GoldenFinding& finding : findings) {
     if (finding.kind < FindingKind::kLight) others.push_back(finding);
   }
   return others;
@@ -163,7 +163,7 @@ class ReportWriter {
       return "<span class=\"tag warn\">not compared</span>";
     }
     std::string tags;
-    for (const Layer& layer : verdict.layers) {
+    for (const GoldenLayer& layer : verdict.layers) {
       if (!layer.passes) tags += fmt::format("<span class=\"tag bad\">{}</span> ", layer.name);
     }
     return tags.empty() ? "<span class=\"tag bad\">accepted files</span>" : tags;
@@ -239,7 +239,7 @@ class ReportWriter {
     if (verdict.findings.size() <= Summarize(verdict.findings).size()) return;
     html_ += fmt::format("<details><summary>All {} changes</summary><ul class=\"words\">",
                          verdict.findings.size());
-    for (const Finding& finding : verdict.findings) {
+    for (const GoldenFinding& finding : verdict.findings) {
       html_ +=
           fmt::format("<li class=\"{}\">{}</li>\n", Name(finding.kind), WithDots(finding.text));
     }
@@ -251,7 +251,7 @@ class ReportWriter {
     html_ +=
         "<table class=\"layers\"><thead><tr><th>layer</th><th>found</th></tr>"
         "</thead><tbody>";
-    for (const Layer& layer : verdict.layers) {
+    for (const GoldenLayer& layer : verdict.layers) {
       html_ += fmt::format("<tr class=\"{}\"><th>{} {}</th><td>{}</td></tr>",
                            layer.passes ? "" : "fails", layer.passes ? "✓" : "✕", layer.name,
                            EscapeHtml(layer.found));

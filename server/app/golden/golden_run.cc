@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <stdexcept>
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
@@ -20,7 +20,7 @@ constexpr int kRunSchema = 1;
 
 fs::path FileOf(const fs::path& out) { return out / "run.json"; }
 
-Json ToJson(const Finding& finding) {
+Json ToJson(const GoldenFinding& finding) {
   Json line = {{"kind", Name(finding.kind)}, {"object", finding.object}};
   if (!finding.expected.empty()) line["expected"] = finding.expected;
   if (!finding.actual.empty()) line["found"] = finding.actual;
@@ -55,9 +55,9 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
                {"problems", Explain(verdict)},
                {"seconds", verdict.secs}};
   line["findings"] = Json::array();
-  for (const Finding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
+  for (const GoldenFinding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
   line["layers"] = Json::array();
-  for (const Layer& layer : verdict.layers) {
+  for (const GoldenLayer& layer : verdict.layers) {
     line["layers"].push_back(
         {{"name", layer.name}, {"found", layer.found}, {"passes", layer.passes}});
   }
@@ -107,27 +107,26 @@ void WriteRun(const fs::path& out, const fs::path& folder,
   render::WriteNewFile(FileOf(out), JsonText(run, 1) + "\n");
 }
 
+GoldenRun ParseRun(const std::string& text) {
+  const json document = json::parse(text);
+  if (document.at("schema") != kRunSchema) {
+    throw std::runtime_error(fmt::format("schema {}; this version reads {}",
+                                         JsonText(document.at("schema")), kRunSchema));
+  }
+  GoldenRun run;
+  run.folder = document.at("folder").get<std::string>();
+  for (const auto& line : document.at("cases")) run.cases.push_back(CaseFrom(line));
+  return run;
+}
+
 GoldenRun ReadRun(const fs::path& out) {
   const fs::path path = FileOf(out);
-  std::ifstream file(path);
-  if (!file) {
-    throw UsageError(path.string() +
-                     ": cannot be read; name the folder that `kinescope golden check --out` wrote");
-  }
   try {
-    const json document = json::parse(file);
-    if (const int schema = document.at("schema"); schema != kRunSchema) {
-      throw UsageError(
-          fmt::format("{}: schema {}; this version reads {}", path.string(), schema, kRunSchema));
-    }
-    GoldenRun run;
-    run.folder = document.at("folder").get<std::string>();
-    for (const auto& line : document.at("cases")) run.cases.push_back(CaseFrom(line));
-    return run;
-  } catch (const std::ios_base::failure&) {
-    throw UsageError(path.string() + ": cannot be read (a folder?)");
-  } catch (const json::exception& error) {
-    throw UsageError(fmt::format("{}: {}", path.string(), error.what()));
+    return ParseRun(ReadSmallFile(path));
+  } catch (const std::exception& error) {
+    throw UsageError(
+        fmt::format("{}: {}; name the folder that `kinescope golden check --out` has written",
+                    path.string(), error.what()));
   }
 }
 

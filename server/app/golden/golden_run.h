@@ -37,6 +37,9 @@ struct GoldenRun {
   std::vector<CaseOfRun> cases;
 };
 
+/// The content of `run.json`. @throws std::exception with the reason.
+GoldenRun ParseRun(const std::string& text);
+
 /// @throws UsageError with the file and the reason if there is no run, or it cannot be read.
 GoldenRun ReadRun(const std::filesystem::path& out);
 

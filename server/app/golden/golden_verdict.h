@@ -26,7 +26,7 @@ const char* Name(Outcome outcome);
 const char* LoudName(Outcome outcome);
 
 /// One of the ways of comparing, with its number.
-struct Layer {
+struct GoldenLayer {
   std::string name;   // "objects", "structure", "light", "pixels"
   std::string found;  // with its limit
   bool passes = true;
@@ -38,10 +38,10 @@ struct CaseVerdict {
   std::filesystem::path file;
   int line = 1;  // of the file: the key that explains it best
   Outcome outcome = Outcome::kSame;
-  std::vector<Finding> findings;   // kDiffers: the worst first
-  std::string reason;              // kNotCompared: why
-  std::vector<std::string> notes;  // what makes the check weaker
-  std::vector<Layer> layers;       // empty where the pixels are equal
+  std::vector<GoldenFinding> findings;  // kDiffers: the worst first
+  std::string reason;                   // kNotCompared: why
+  std::vector<std::string> notes;       // what makes the check weaker
+  std::vector<GoldenLayer> layers;      // empty where the pixels are equal
   bool is_byte_equal = false;
   GoldenChanges changes;
   std::string accepted_pixels;      // SHA-256; "": nothing is accepted

@@ -13,6 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 40;
+
 double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 std::string InView(const std::string& view, const std::string& name) {
@@ -83,8 +85,8 @@ ObjectFact ObjectFrom(const json& line) {
   object.name = line.at("name");
   object.load_class = ClassFrom(line.value("class", ""));
   if (line.contains("ratio")) object.ratio = line.at("ratio").get<double>();
-  object.pixels = line.at("pixels");
-  object.through = line.value("through", std::int64_t{0});
+  object.pixels = CountFrom(line.at("pixels"), kMostPixels);
+  if (line.contains("through")) object.through = CountFrom(line.at("through"), kMostPixels);
   object.x_px = line.at("x");
   object.y_px = line.at("y");
   return object;
@@ -132,6 +134,14 @@ std::vector<TextFact> TextFactsOf(const render::PictureContents& contents) {
     facts.push_back({text.part, text.text, text.x_px, text.y_px});
   }
   return facts;
+}
+
+std::int64_t CountFrom(const json& value, std::int64_t most) {
+  const bool is_whole = value.is_number_integer();
+  const auto count = is_whole ? value.get<std::int64_t>() : -1;
+  if (count >= 0 && count <= most) return count;
+  throw json::other_error::create(
+      501, fmt::format("{}: expected a whole number from 0 to {}", JsonText(value), most), &value);
 }
 
 std::string ToJson(const PictureFacts& facts) {

@@ -51,6 +51,9 @@ std::vector<TextFact> TextFactsOf(const render::PictureContents& contents);
 /// program. Rounded to 0.1 px, 0.001 of a ratio, 0.1 mm.
 std::string ToJson(const PictureFacts& facts);
 
+/// A whole number from 0 to `most`. @throws nlohmann::json::exception if it is none.
+std::int64_t CountFrom(const nlohmann::json& json, std::int64_t most);
+
 /// @throws nlohmann::json::exception if a member is missing or of another type.
 PictureFacts FactsFrom(const nlohmann::json& json);
 

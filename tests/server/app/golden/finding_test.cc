@@ -39,7 +39,7 @@ PictureFacts Facts() {
 
 std::vector<std::string> Words(const PictureFacts& actual) {
   std::vector<std::string> words;
-  for (const Finding& finding : Compare(Facts(), actual)) words.push_back(finding.text);
+  for (const GoldenFinding& finding : Compare(Facts(), actual)) words.push_back(finding.text);
   return words;
 }
 
@@ -114,7 +114,7 @@ TEST(Findings, AreALineForEachObject) {
   PictureFacts now = Facts();
   now.objects[0] = Load("right_elbow", LoadClass::kMedium, 0.31);
   now.objects[0].x_px += 5;
-  std::vector<Finding> findings = Compare(Facts(), now);
+  std::vector<GoldenFinding> findings = Compare(Facts(), now);
   findings.push_back({FindingKind::kPixels, kWholePicture, "", "", 0, "9 pixels differ"});
   EXPECT_THAT(
       Summarize(findings),
