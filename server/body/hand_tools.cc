@@ -74,6 +74,19 @@ std::vector<std::filesystem::path> ToolsValue::Files() const {
   return files;
 }
 
+void ToolsValue::SetFolder(const std::filesystem::path& folder) {
+  std::string text;
+  std::size_t begin = 0;
+  while (begin < text_.size()) {  // "right:FILE@...;left:FILE@..."
+    const std::size_t end = std::min(text_.find(';', begin), text_.size());
+    const std::size_t file = std::min(text_.find(':', begin), end - 1) + 1;
+    if (!text.empty()) text += ';';
+    text += text_.substr(begin, file - begin) + (folder / text_.substr(file, end - file)).string();
+    begin = end + 1;
+  }
+  Parse(text);
+}
+
 std::shared_ptr<const HandTools> ReadHandTools(const ToolsValue& files,
                                                const urdf::MeshConvention& convention) {
   if (files.is_empty()) return nullptr;

@@ -35,6 +35,7 @@ class ToolsValue : public options::ValueOf<std::array<std::optional<ToolFile>, 2
   std::string Expected() const override;
   std::vector<std::string> Names() const override { return {"right", "left"}; }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
   bool is_empty() const { return !value_[urdf::kRight] && !value_[urdf::kLeft]; }
 
  private:

@@ -62,6 +62,10 @@ std::vector<std::filesystem::path> BodyModelValue::Files() const {
                                : FilesOfCustomBody(value_.folder);
 }
 
+void BodyModelValue::SetFolder(const std::filesystem::path& folder) {
+  if (!value_.folder.empty()) value_.folder = (folder / value_.folder).string();
+}
+
 void BodyColorValue::Parse(const std::string& text) {
   value_ = ColorFromHex(text);
   if (!value_ && text != "suit") RefuseText();

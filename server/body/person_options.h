@@ -32,6 +32,7 @@ class BodyModelValue : public options::ValueOf<BodyModelSource> {
   std::string Expected() const override { return "smooth, primitive or mesh:FOLDER"; }
   std::vector<std::string> Names() const override { return {"smooth", "primitive", "mesh:"}; }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 };
 
 /// suit or #RRGGBB.

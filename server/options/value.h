@@ -61,6 +61,8 @@ class Value {
   virtual std::vector<std::string> Names() const { return {}; }
   /// The files that decide what the value means.
   virtual std::vector<std::filesystem::path> Files() const { return {}; }
+  /// Relative paths in the value, and in its text, are in `folder` instead of the current one.
+  virtual void SetFolder(const std::filesystem::path& /*folder*/) {}
   virtual JsonKind json_kind() const { return JsonKind::kText; }
   /// Whether the option may be given several times; ParseAll() then gets all of its texts.
   virtual bool is_repeatable() const { return false; }
@@ -303,6 +305,7 @@ class Optional : public Value {
   std::string Expected() const override { return inner_.Expected(); }
   bool IsGiven() const override { return is_given_; }
   std::vector<std::string> Names() const override { return inner_.Names(); }
+  void SetFolder(const std::filesystem::path& folder) override { inner_.SetFolder(folder); }
   std::vector<std::filesystem::path> Files() const override {
     return is_given_ ? inner_.Files() : std::vector<std::filesystem::path>();
   }

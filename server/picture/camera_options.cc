@@ -76,6 +76,12 @@ std::vector<std::filesystem::path> CamerasValue::Files() const {
   return files;
 }
 
+void CamerasValue::SetFolder(const std::filesystem::path& folder) {
+  for (CameraChoice& camera : value_) {
+    if (camera.is_key_file) camera.text = (folder / camera.text).string();
+  }
+}
+
 void OrbitValue::Parse(const std::string& text) {
   if (text == "turn") {
     value_ = {true, 0};

@@ -33,6 +33,7 @@ class CamerasValue : public options::ValueOf<std::vector<CameraChoice>> {
   std::string Expected() const override;
   std::vector<std::string> Names() const override { return render::CameraNames(); }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 
  private:
   std::size_t most_;

@@ -28,8 +28,8 @@ class FigureValue : public options::ValueOf<render::Figure> {
   std::vector<std::string> Names() const override { return {"skin", "skin:", "urdf"}; }
   std::vector<std::filesystem::path> Files() const override;
 
-  /// FILE.glb, where it is relative, is in `folder`. Before Load().
-  void SetFolder(const std::filesystem::path& folder);
+  /// Before Load().
+  void SetFolder(const std::filesystem::path& folder) override;
   /// With the skin of FILE.glb, which is read once for all copies of this value. Any thread.
   /// @throws UsageError with the option, the file and the reason.
   render::Figure Load() const;

@@ -11,6 +11,7 @@
 
 #include "core/picture_limits.h"
 #include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "server/options/text.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_reader.h"
@@ -274,6 +275,14 @@ std::vector<std::filesystem::path> GhostValue::Files() const {
   return {value_.source};
 }
 
+void GhostValue::SetFolder(const std::filesystem::path& folder) {
+  if (value_.kind != GhostSource::Kind::kMoment || StartsWith(value_.source, "demo:")) {
+    return;
+  }
+  value_.source = (folder / value_.source).string();
+  text_ = (folder / text_).string();  // it begins with the source
+}
+
 // A name may hold an @ of its own: what follows the last one is a place when it looks like one.
 void RobotsValue::Parse(const std::string& text) {
   std::vector<std::string> texts;
@@ -325,6 +334,11 @@ std::vector<std::filesystem::path> RobotsValue::Files() const {
     for (auto& file : FilesOfRobot(robot.file)) files.push_back(std::move(file));
   }
   return files;
+}
+
+void RobotsValue::SetFolder(const std::filesystem::path& folder) {
+  for (RobotPlace& robot : value_) robot.file = (folder / robot.file).string();
+  for (std::string& text : texts_) text = (folder / text).string();  // it begins with the file
 }
 
 ViewOptions::ViewOptions(std::size_t most_cameras)

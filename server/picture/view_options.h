@@ -96,6 +96,7 @@ class GhostValue : public options::ValueOf<GhostSource> {
   std::string Expected() const override;
   std::vector<std::string> Names() const override { return {"n_pose", "t_pose"}; }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 
  private:
   std::string text_;
@@ -131,6 +132,7 @@ class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
   std::string ToText() const override;
   std::string Expected() const override;
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 
  private:
   std::vector<std::string> texts_;

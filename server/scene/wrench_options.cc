@@ -46,6 +46,10 @@ std::vector<std::filesystem::path> WrenchFileValue::Files() const {
   return {value_};
 }
 
+void WrenchFileValue::SetFolder(const std::filesystem::path& folder) {
+  if (!value_.empty()) value_ = (folder / value_).string();
+}
+
 void WrenchBodiesValue::Parse(const std::string& text) {
   std::vector<GroupBody> groups;
   std::size_t begin = 0;

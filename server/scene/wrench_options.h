@@ -27,6 +27,7 @@ class WrenchFileValue : public options::ValueOf<std::string> {
   std::string Expected() const override { return "FILE.csv, FILE.mot or FILE.sto"; }
   bool IsGiven() const override { return !value_.empty(); }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 };
 
 /// X,Y,YAW (m and degrees).

@@ -339,6 +339,12 @@ TEST_F(GoldenCheck, WritesACaseThatItReads) {
   EXPECT_THAT(testing::ReadFile(case_ / "golden.lock"), HasSubstr("\"title\":\"a: 'b' #c\""));
   ExpectRefusal(Golden({"new", case_, "side", "--source=demo:lift"}), "there is such a case");
   ExpectRefusal(Golden({"new", case_, "../x", "--source=demo:lift"}), "case '../x'");
+  // From here; the case says it from where it is.
+  ASSERT_EQ(Kinescope({"golden", "new", case_ / "sub", "robot", "--source=demo:lift",
+                       "--robot=" + (case_ / "arm.urdf").string()})
+                .exit_code,
+            0);
+  EXPECT_THAT(testing::ReadFile(case_ / "sub/robot.yaml"), HasSubstr("arm.urdf"));
   EXPECT_THAT(Golden({"keys"}).out, AllOf(HasSubstr("camera: "), HasSubstr("class_limits: 0.3")));
 }
 

@@ -162,9 +162,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   if (!IsSubjectUrl(*golden_case.source)) {
     golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }
-  golden_case.view.figure.SetFolder(yaml.parent_path());
-  WrenchFileValue& wrenches = golden_case.loads.measured.wrenches;
-  if (wrenches.IsGiven()) wrenches = (yaml.parent_path() / *wrenches).string();
+  for (options::Option& option : list) option.value->SetFolder(yaml.parent_path());
   return golden_case;
 }
 

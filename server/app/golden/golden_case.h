@@ -8,7 +8,7 @@
 ///     supersample: 2
 ///     why: the purpose of the case in one line, shown when it fails
 ///
-/// Files of `source` and `wrenches` are relative to the case.
+/// Files are relative to the case.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,6 @@
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
-#include "core/system/starts_with.h"
 #include "render/image/new_file.h"
 #include "server/app/print.h"
 #include "server/options/option_json.h"
@@ -34,14 +33,9 @@ std::string RelativeTo(const fs::path& folder, const std::string& path) {
 
 // As the case must say it: paths were given from here, and are read from there.
 std::string TextFor(const Option& option, const fs::path& folder) {
-  constexpr char kSkinFile[] = "skin:";
   const std::string text = option.value->ToText();
-  if (option.name == "source") return IsSubjectUrl(text) ? text : RelativeTo(folder, text);
-  if (option.name == "wrenches") return RelativeTo(folder, text);
-  if (option.name == "figure" && StartsWith(text, kSkinFile)) {
-    return kSkinFile + RelativeTo(folder, text.substr(sizeof kSkinFile - 1));
-  }
-  return text;
+  const bool is_file = option.name == "source" && !IsSubjectUrl(text);
+  return is_file ? RelativeTo(folder, text) : text;
 }
 
 options::YamlLine LineOf(const Option& option, const fs::path& folder) {
@@ -60,7 +54,9 @@ fs::path WriteNewCase(const fs::path& folder, const std::string& name,
   }
   std::vector<options::YamlLine> lines;
   for (const Option& option : options) {
-    if (!option.given_as.empty()) lines.push_back(LineOf(option, folder));
+    if (option.given_as.empty()) continue;
+    option.value->SetFolder(RelativeTo(folder, "."));
+    lines.push_back(LineOf(option, folder));
   }
   fs::create_directories(folder);
   render::WriteNewFile(path, options::ToYaml(lines));

@@ -84,6 +84,23 @@ TEST_F(GoldenCaseFile, HasItsPersonBesideIt) {
   EXPECT_EQ(Load("source: demo:lift\nfigure: urdf\n").view.figure.ToText(), "urdf");
 }
 
+TEST_F(GoldenCaseFile, HasAllItsFilesBesideIt) {
+  const GoldenCase golden_case = Load(
+      "source: a.mvnx\nghost: b.mvnx@2\nrobot: [c.urdf, '/d.urdf@1,2']\nbody_model: mesh:e\n"
+      "tool: right:f.stl@0,0,0;left:/g.stl\ncamera: h.yaml\n");
+  const std::string folder = folder_.path();
+  EXPECT_EQ(*golden_case.source, folder + "/a.mvnx");
+  EXPECT_EQ(golden_case.view.ghost->source, folder + "/b.mvnx");
+  EXPECT_EQ(golden_case.view.robot->at(0).file, folder + "/c.urdf");
+  EXPECT_EQ(golden_case.view.robot->at(1).file, "/d.urdf");
+  EXPECT_EQ(golden_case.person.body_model->folder, folder + "/e");
+  EXPECT_EQ((*golden_case.person.tool)[urdf::kRight]->path, folder + "/f.stl");
+  EXPECT_EQ((*golden_case.person.tool)[urdf::kLeft]->path, "/g.stl");
+  EXPECT_EQ(golden_case.view.camera->at(0).text, folder + "/h.yaml");
+  EXPECT_EQ(golden_case.given.at("ghost"), "b.mvnx@2") << "as the file says it";
+  EXPECT_EQ(Load("source: demo:lift\nghost: demo:lift@1\n").view.ghost->source, "demo:lift");
+}
+
 TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nghost: demo:lift@1\nbody_model: primitive\nsize: 16x16\n");
