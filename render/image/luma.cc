@@ -8,7 +8,7 @@ namespace {
 
 std::size_t WithMargin(int side) {
   const int cells = std::max(2, (side + LumaPlane::kCell - 1) / LumaPlane::kCell);
-  return static_cast<std::size_t>(cells * LumaPlane::kCell);
+  return static_cast<std::size_t>(cells) * LumaPlane::kCell;
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct ChangedBlocks {
 
 ChangedBlocks FindChangedBlocks(const Image& expected, const Image& actual) {
   ChangedBlocks blocks{BlocksIn(expected.width), BlocksIn(expected.height), {}};
-  blocks.is_changed.resize(static_cast<std::size_t>(blocks.columns * blocks.rows));
+  blocks.is_changed.resize(static_cast<std::size_t>(blocks.columns) *
+                           static_cast<std::size_t>(blocks.rows));
   const std::size_t row_bytes = 4 * static_cast<std::size_t>(expected.width);
   constexpr std::size_t kBlockBytes = 4 * kStructureBlock;
   for (int y = 0; y < expected.height; ++y) {
@@ -35,7 +36,8 @@ ChangedBlocks FindChangedBlocks(const Image& expected, const Image& actual) {
         &blocks.is_changed[static_cast<std::size_t>(y / kStructureBlock) * blocks.columns];
     for (std::size_t at = 0; at < row_bytes; at += kBlockBytes, ++block) {
       const std::size_t size = std::min(kBlockBytes, row_bytes - at);
-      if (*block == 0 && std::memcmp(&expected.rgba[begin + at], &actual.rgba[begin + at], size)) {
+      if (*block == 0 &&
+          std::memcmp(&expected.rgba[begin + at], &actual.rgba[begin + at], size) != 0) {
         *block = 1;
       }
     }
@@ -48,7 +50,8 @@ template <class Visit>
 void ForEachChangedRow(const ChangedBlocks& blocks, int width, int height, Visit&& visit) {
   for (int row = 0; row < blocks.rows; ++row) {
     const std::uint8_t* const first =
-        &blocks.is_changed[static_cast<std::size_t>(row * blocks.columns)];
+        &blocks
+             .is_changed[static_cast<std::size_t>(row) * static_cast<std::size_t>(blocks.columns)];
     int from = 0, to = blocks.columns;
     while (from < to && first[from] == 0) ++from;
     while (from < to && first[to - 1] == 0) --to;
@@ -157,7 +160,7 @@ class LightSums {
         continue;
       }
       const auto difference = [&](int c) {
-        return static_cast<std::uint64_t>(actual[c] - expected[c] + kZero);
+        return std::uint64_t{actual[c]} + static_cast<unsigned>(kZero) - expected[c];
       };
       packed[tone] += difference(0) | difference(1) << kBits | difference(2) << (2 * kBits);
       ++counts[tone];

@@ -84,10 +84,10 @@ std::vector<std::uint8_t> MeetsChange(const std::vector<std::uint8_t>& changed, 
   std::vector<std::uint8_t> meets(changed.size(), 0);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      if (changed[static_cast<std::size_t>(row * columns + column)] == 0) continue;
+      if (changed[static_cast<std::size_t>(row) * columns + column] == 0) continue;
       for (int y = std::max(0, row - 1); y <= row; ++y) {
         for (int x = std::max(0, column - 1); x <= column; ++x) {
-          meets[static_cast<std::size_t>(y * columns + x)] = 1;
+          meets[static_cast<std::size_t>(y) * columns + x] = 1;
         }
       }
     }

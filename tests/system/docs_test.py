@@ -178,6 +178,12 @@ def try_kinescope(words, folder):
     if "accept" in words:
         (pathlib.Path(folder) / "golden_images/lift_bend_right.yaml").open("a").write("mass: 90\n")
         run([PROGRAM, "golden", "check", "golden_images"], folder)
+    if words[1:3] == ["golden", "compare"]:
+        for backend in ("osmesa", "egl"):
+            problem = run([PROGRAM, "render", "demo:lift", "--time", "3", "--size", "320x180", "--backend", backend, "--out",
+                           backend + ".png"], folder)
+            if problem:
+                return problem
     if "--tls_certificate" in words:
         problem = run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-subj", "/CN=lab",
                        "-keyout", "lab.key", "-out", "lab.pem"], folder)

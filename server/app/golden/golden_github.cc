@@ -20,7 +20,7 @@ std::vector<const CaseVerdict*> Failures(const std::vector<CaseVerdict>& verdict
   return failures;
 }
 
-std::string Replaced(std::string text, char what, const char* by) {
+std::string Replaced(const std::string& text, char what, const char* by) {
   std::string replaced;
   for (const char c : text) {
     if (c == what) {

@@ -48,7 +48,7 @@ options::YamlLine LineOf(const Option& option, const fs::path& folder) {
 fs::path WriteNewCase(const fs::path& folder, const std::string& name,
                       const options::OptionList& options) {
   CheckName(name);
-  const fs::path path = folder / (name + ".yaml");
+  fs::path path = folder / (name + ".yaml");
   if (fs::exists(path)) {
     throw UsageError(path.string() + ": there is such a case already; choose another name");
   }

@@ -75,6 +75,7 @@ std::vector<const CaseVerdict*> InOrder(const std::vector<CaseVerdict>& verdicts
     return verdict.findings.empty() ? 99 : static_cast<int>(verdict.findings.front().kind);
   };
   std::vector<const CaseVerdict*> all;
+  all.reserve(verdicts.size());
   for (const CaseVerdict& verdict : verdicts) all.push_back(&verdict);
   std::stable_sort(all.begin(), all.end(),
                    [&](const CaseVerdict* a, const CaseVerdict* b) { return rank(*a) < rank(*b); });
