@@ -6,6 +6,7 @@
 /// population variances. The outermost pixels are repeated up to a multiple of 4 px.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/image/luma.h"

@@ -12,7 +12,7 @@ Command BridgeCommand();   // source -> ROS only
 Command RenderCommand();   // source -> PNG or clips
 Command LoadsCommand();    // source -> CSV, JSON, plots, report
 Command ConvertCommand();  // source -> motion files
-Command GoldenCommand();   // check | update golden images
+Command GoldenCommand();   // check, accept, ... golden images
 Command StreamCommand();   // source -> MVN network stream
 Command RecordCommand();   // source -> capture file
 Command InspectCommand();  // contents of a source

@@ -348,6 +348,24 @@ TEST_F(GoldenCheck, WritesACaseThatItReads) {
   EXPECT_THAT(Golden({"keys"}).out, AllOf(HasSubstr("camera: "), HasSubstr("class_limits: 0.3")));
 }
 
+TEST_F(GoldenCheck, DrawsTheSameBytesUnderAllCircumstances) {
+  WriteCase("n_pose", "source: demo:n_pose\nsize: 64x64\n");
+  const ProgramResult result = Golden({"stress", case_});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("8 filling threads            2 the same"),
+                                HasSubstr("read-only home               2 the same"),
+                                HasSubstr("working folder /             2 the same"),
+                                HasSubstr("lowest priority              2 the same")));
+  EXPECT_EQ(Golden({"check", case_, "n_pose"}).exit_code, 2) << "stress accepts nothing";
+}
+
+TEST_F(GoldenCheck, SaysUnderWhichCircumstancesNothingIsDrawn) {
+  WriteCase("late", "source: walk.pcap\nsize: 64x64\n");
+  const ProgramResult result = Golden({"stress", case_, "late"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, HasSubstr("late: could not be drawn"));
+}
+
 TEST_F(GoldenCheck, SaysWhatMakesItWeaker) {
   ReplaceInLock("\"scene_library\":\"VTK", "\"scene_library\":\"NTK");
   const ProgramResult weaker = Check();

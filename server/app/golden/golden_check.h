@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <string>
 
 #include "render/renderer.h"
 #include "server/app/golden/golden_suite.h"

@@ -3,7 +3,10 @@
 /// picture per test. Pure but for the font; one thread.
 #pragma once
 
+#include <optional>
+
 #include "render/image/image.h"
+#include "render/image/tile.h"
 #include "server/app/golden/golden_verdict.h"
 
 namespace kinescope::app {

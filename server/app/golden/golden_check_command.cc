@@ -1,0 +1,132 @@
+// `kinescope golden check`: have the pictures that people see changed, and what in them?
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/system/json_text.h"
+#include "render/image/new_file.h"
+#include "server/app/golden/golden_check.h"
+#include "server/app/golden/golden_commands.h"
+#include "server/app/golden/golden_github.h"
+#include "server/app/golden/golden_junit.h"
+#include "server/app/golden/golden_report.h"
+#include "server/app/golden/golden_run.h"
+#include "server/app/print.h"
+
+namespace kinescope::app {
+namespace {
+
+struct CheckOptions {
+  GoldenCaseOptions cases;
+  options::Text out{"out/golden"}, junit, summary;
+  options::Flag json, is_strict;
+  BackendOptions backend;
+};
+
+void PrintVerdict(const CaseVerdict& verdict) {
+  const char* const how =
+      verdict.outcome == Outcome::kSame && !verdict.is_byte_equal ? " (within the limits)" : "";
+  Print("{:<24} {}{}\n", verdict.name, LoudName(verdict.outcome), how);
+  if (verdict.outcome != Outcome::kSame && !verdict.why.empty()) {
+    Print("  purpose: {}\n", verdict.why);
+  }
+  for (const std::string& line : Explain(verdict)) Print("  {}\n", line);
+}
+
+void PrintSummary(const OutcomeCounts& counts, const CheckOptions& options) {
+  Print("{}\n", Headline(counts));
+  if (counts.ExitCode() == 0) return;
+  Print("Report: {}/report.html; to accept what it shows: kinescope golden accept {} CASE...\n",
+        *options.out, *options.out);
+}
+
+// What GitHub reads from standard output. Between Begin and End it obeys nothing, because names in
+// verdicts come from files.
+class GithubOutput {
+ public:
+  explicit GithubOutput(bool is_json)
+      : is_on_(!is_json && std::getenv("GITHUB_ACTIONS") != nullptr) {
+    std::random_device random;
+    token_ = fmt::format("kinescope-{:08x}{:08x}", random(), random());
+    if (is_on_) Print("::stop-commands::{}\n", token_);
+  }
+  void End(const std::vector<CaseVerdict>& verdicts, const std::string& out) const {
+    if (!is_on_) return;
+    Print("::{}::\n", token_);
+    PrintText(stdout, ToAnnotations(verdicts, out));
+    const char* const summary = std::getenv("GITHUB_STEP_SUMMARY");
+    if (summary == nullptr) return;
+    std::ofstream(summary, std::ios::app) << ToMarkdown(verdicts, out);
+  }
+
+ private:
+  bool is_on_;
+  std::string token_;
+};
+
+void WriteResults(const CheckOptions& options, const std::vector<CaseVerdict>& verdicts) {
+  const std::filesystem::path out = *options.out;
+  WriteRun(out, *options.cases.folder, verdicts);
+  render::WriteNewFile(out / "report.html", GoldenReport(verdicts, {*options.cases.folder, out}));
+  if (!options.junit->empty()) {
+    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, out));
+  }
+  if (!options.summary->empty()) {
+    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, out));
+  }
+}
+
+int CheckAll(const CheckOptions& options) {
+  const GoldenSuite suite = options.cases.Find();
+  const auto renderer = StartRenderer(options.backend);
+  ClearRun(*options.out);
+  const GithubOutput github(*options.json);
+  std::vector<CaseVerdict> verdicts;
+  CheckSuite(suite, {*options.out, *options.is_strict}, *renderer, [&](const CaseVerdict& verdict) {
+    verdicts.push_back(verdict);
+    if (*options.json) {
+      Print("{}\n", JsonText(ToJson(verdict, *options.out)));
+    } else {
+      PrintVerdict(verdict);
+    }
+  });
+  const OutcomeCounts counts = CountsOf(verdicts);
+  WriteResults(options, verdicts);
+  if (!*options.json) PrintSummary(counts, options);
+  github.End(verdicts, *options.out);
+  return counts.ExitCode();
+}
+
+}  // namespace
+
+Command GoldenCheckCommand() {
+  const auto values = std::make_shared<CheckOptions>();
+  Command check;
+  check.name = "check";
+  check.about = "Draws every case and compares it with the accepted picture";
+  values->cases.List(check.options);
+  values->backend.List(check.options);
+  check.options("out", values->out,
+                "folder for the report, the verdicts (run.json) and the pictures of cases that are "
+                "not the same");
+  check.options("strict", values->is_strict,
+                "only equal bytes in the accepted environment are the same");
+  check.options("junit", values->junit, "JUnit XML file for CI servers");
+  check.options("summary", values->summary, "Markdown file, for comments and pages of jobs");
+  check.options("json", values->json, "print the verdicts as JSON");
+  check.positionals = {"folder", "case"};
+  check.footer =
+      "Exit code: 0 all are the same, 1 a case differs or a picture belongs to no case, 2 a case "
+      "could not be compared.\n"
+      "In GitHub Actions, it writes annotations and the summary of the job by itself.";
+  check.run = [values](options::OptionList&) { return CheckAll(*values); };
+  return check;
+}
+
+}  // namespace kinescope::app

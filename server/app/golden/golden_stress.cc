@@ -1,0 +1,131 @@
+#include "server/app/golden/golden_stress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <stdexcept>
+
+#include "core/system/scratch_folder.h"
+#include "core/system/stop_signal.h"
+#include "server/app/golden/finding.h"
+#include "server/app/golden/golden_run.h"
+#include "server/app/golden/golden_suite.h"
+#include "server/app/print.h"
+#include "server/picture/child_process.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::minutes kMostPerCase(2);
+
+struct Circumstance {
+  std::string name;
+  std::vector<std::string> before;  // words before the program
+};
+
+// By coreutils, which every Debian has.
+std::vector<Circumstance> Circumstances(const fs::path& scratch) {
+  const fs::path home = scratch / "home";
+  fs::create_directories(home);
+  fs::permissions(home, fs::perms::owner_read | fs::perms::owner_exec);
+  const auto with = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "/usr/bin/env");
+    return words;
+  };
+  std::vector<Circumstance> all;
+  for (const char* threads : {"0", "1", "2", "4", "8"}) {
+    all.push_back({fmt::format("{} filling threads", threads),
+                   with({std::string("LP_NUM_THREADS=") + threads})});
+  }
+  all.push_back({"locale with decimal commas", with({"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8"})});
+  all.push_back({"time zone Asia/Kathmandu", with({"TZ=Asia/Kathmandu"})});
+  all.push_back({"working folder /", with({"-C", "/"})});
+  all.push_back({"read-only home",
+                 with({"HOME=" + home.string(), "XDG_CACHE_HOME=" + (home / "cache").string()})});
+  all.push_back({"lowest priority", {"/usr/bin/nice", "-n", "19"}});
+  return all;
+}
+
+class Stress {
+ public:
+  explicit Stress(const StressSettings& settings)
+      : settings_(settings), suite_(FindGoldenSuite(settings.folder, settings.names)) {}
+
+  int Run() {
+    const auto circumstances = Circumstances(scratch_.path());
+    first_ = Draw({"/usr/bin/env"});
+    for (int round = 0; round < settings_.rounds; ++round) {
+      for (const Circumstance& each : circumstances) {
+        if (StopRequested()) throw std::runtime_error("interrupted");
+        CompareWith(each);
+      }
+    }
+    return exit_code_;
+  }
+
+ private:
+  using Drawn = std::map<std::string, CaseOfRun>;
+
+  // In a process of its own, whose environment is another one.
+  Drawn Draw(std::vector<std::string> command) {
+    const fs::path out = scratch_ / "run";
+    command.push_back(fs::read_symlink("/proc/self/exe").string());
+    command.insert(command.end(), {"golden", "check", fs::absolute(settings_.folder).string()});
+    for (const FoundCase& found : suite_.cases) command.push_back(found.name);
+    command.insert(command.end(),
+                   {"--out", out.string(), "--backend", settings_.backend, "--json"});
+    const ChildResult child =
+        RunChild(command, kMostPerCase * static_cast<int>(suite_.cases.size()),
+                 [] { return !StopRequested(); });
+    if (child.signal != 0 || child.was_too_slow) {
+      throw std::runtime_error(child.was_too_slow
+                                   ? "drawing took too long"
+                                   : fmt::format("drawing ended with signal {}", child.signal));
+    }
+    Drawn drawn;
+    for (CaseOfRun& each : ReadRun(out).cases) {
+      if (!each.now) SetExitCode(2);
+      drawn[each.name] = std::move(each);
+    }
+    return drawn;
+  }
+
+  void CompareWith(const Circumstance& circumstance) {
+    const Drawn drawn = Draw(circumstance.before);
+    std::vector<std::string> lines;
+    for (const auto& [name, each] : drawn) {
+      const auto& before = first_[name].now;
+      if (!each.now || !before) {
+        lines.push_back(name + ": could not be drawn; `kinescope golden check` says why");
+      } else if (each.now->pixels_sha256 != before->pixels_sha256) {
+        SetExitCode(1);
+        const auto findings = Compare(before->facts, each.now->facts);
+        lines.push_back(fmt::format(
+            "{}: {}", name,
+            findings.empty() ? "other pixels, and the same objects" : findings.front().text));
+      }
+    }
+    Print("{:<28} {}\n", circumstance.name,
+          lines.empty() ? fmt::format("{} the same", drawn.size()) : "DIFFERS");
+    for (const std::string& line : lines) Print("  {}\n", line);
+  }
+
+  // 2 wins: the verdict is not known then.
+  void SetExitCode(int code) { exit_code_ = std::max(exit_code_, code); }
+
+  const StressSettings& settings_;
+  const GoldenSuite suite_;
+  const ScratchFolder scratch_;
+  Drawn first_;
+  int exit_code_ = 0;
+};
+
+}  // namespace
+
+int StressSuite(const StressSettings& settings) { return Stress(settings).Run(); }
+
+}  // namespace kinescope::app
