@@ -5,6 +5,8 @@ too. LIBRARIES below lists the folders that may include the headers of a third-p
 that its types stay there. Both lists are exact: an entry that no include needs is an error too, so the lists
 cannot become outdated.
 
+Types of one namespace have different names: two of one name link, and then one takes the place of the other.
+
 Run without arguments; exit code 1 if an include is not allowed or an entry is not needed. The script also tests
 itself: it inserts faults into a copy of the sources in memory and must report them.
 """
@@ -171,6 +173,21 @@ def check(tree):
     return seen, problems
 
 
+def types_of_one_name(tree):
+    """Lines for types of one namespace that two headers define: they link, and then one takes the place of the other."""
+    first, problems = {}, []
+    for name in sorted(n for n in tree if n.endswith(".h") and not n.startswith("tests/")):
+        namespace = None
+        for line in tree[name].splitlines():
+            if match := re.match(r"namespace (kinescope[\w:]*) \{", line):
+                namespace = match[1]
+            elif match := re.match(r"(?:struct|class|enum class) (\w+)[^;]*\{", line):
+                known = first.setdefault((namespace, match[1]), name)
+                if known != name:
+                    problems.append(f"{name}: {namespace}::{match[1]} is also in {known}; choose another name")
+    return problems
+
+
 def faults_not_found(tree):
     """Inserts faults of every kind into a copy; returns the lines that check() should report and does not, and those it should not."""
     faulty = dict(tree)
@@ -218,7 +235,10 @@ def faults_not_found(tree):
     expected.add("tests/layers_test.py: nothing in core/system includes nettle/")
     faulty["ARCHITECTURE.md"] = faulty["ARCHITECTURE.md"].replace("| libpcap |", "| capture library |")
     expected.add("ARCHITECTURE.md: libpcap is not among the dependencies")
-    found = set(check(faulty)[1])
+    faulty["server/mvn/feed.h"] = "namespace kinescope::mvn {\nstruct Feed {\n};\n}\n"
+    faulty["server/mvn/net/feed.h"] = "namespace kinescope::mvn {\nclass Feed : public Base {\n};\n}\n"
+    expected.add("server/mvn/net/feed.h: kinescope::mvn::Feed is also in server/mvn/feed.h; choose another name")
+    found = set(check(faulty)[1] + types_of_one_name(faulty))
     return ([f"self-test: not reported: {line}" for line in sorted(expected - found)] +
             [f"self-test: reported wrongly: {line}" for line in sorted(found - expected)])
 
@@ -226,7 +246,7 @@ def faults_not_found(tree):
 def main():
     tree = read_tree()
     seen, problems = check(tree)
-    problems += faults_not_found(tree)
+    problems += types_of_one_name(tree) + faults_not_found(tree)
     print(f"{seen} includes checked, {len(problems)} problems", *problems, sep="\n")
     return 1 if problems or seen == 0 else 0
 

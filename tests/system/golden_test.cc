@@ -56,6 +56,10 @@ class GoldenCheck : public ::testing::Test {
     ASSERT_NE(at, std::string::npos) << lock;
     std::ofstream(case_ / "golden.lock") << lock.replace(at, before.size(), now);
   }
+  void WritePointer(const std::string& sha256) const {
+    std::ofstream(case_ / "bend.png")
+        << "version https://git-lfs.github.com/spec/v1\noid sha256:" << sha256 << "\nsize 5\n";
+  }
   void AddToCase(const std::string& line) const {
     std::ofstream(case_ / "bend.yaml", std::ios::app) << line << "\n";
   }
@@ -137,14 +141,14 @@ TEST_F(GoldenCheck, DoesNotCompareWhatIsNotAccepted) {
 TEST_F(GoldenCheck, ComparesAPictureThatIsNotHere) {
   for (const bool is_pointer : {false, true}) {
     fs::remove(case_ / "bend.png");
-    if (is_pointer) {
-      std::ofstream(case_ / "bend.png")
-          << "version https://git-lfs.github.com/spec/v1\noid sha256:0\n";
-    }
+    if (is_pointer) WritePointer(app::ReadLock(case_ / "golden.lock")["bend"].file_sha256);
     const ProgramResult result = Check();
     EXPECT_EQ(result.exit_code, 0) << result.out;
     EXPECT_THAT(result.out, HasSubstr("compared by golden.lock alone"));
   }
+  WritePointer(std::string(64, '0'));
+  EXPECT_THAT(Check().out, HasSubstr("to another picture than golden.lock names"));
+  fs::remove(case_ / "bend.png");
   AddToCase("hide: cop");
   const ProgramResult differs = Check();
   EXPECT_EQ(differs.exit_code, 1);

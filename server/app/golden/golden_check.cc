@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -23,11 +24,15 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// What Git LFS leaves in the place of a file that it has not fetched.
-bool IsLfsPointer(const fs::path& path) {
-  std::string begin(64, '\0');
-  std::ifstream(path, std::ios::binary).read(begin.data(), 64);
-  return StartsWith(begin, "version https://git-lfs");
+// What Git LFS leaves in the place of a file that it has not fetched: the SHA-256 that the file
+// has; nullopt: it is another kind of file.
+std::optional<std::string> HashInLfsPointer(const fs::path& path) {
+  constexpr char kBegin[] = "version https://git-lfs", kHash[] = "\noid sha256:";
+  std::string text(256, '\0');
+  std::ifstream(path, std::ios::binary).read(text.data(), 256);
+  if (!StartsWith(text, kBegin)) return std::nullopt;
+  const std::size_t at = text.find(kHash);
+  return at == std::string::npos ? "" : text.substr(at + sizeof kHash - 1, 64);
 }
 
 class CaseCheck {
@@ -155,7 +160,11 @@ class CaseCheck {
       verdict_.notes.push_back(path.string() + ": not here; compared by golden.lock alone");
       return std::nullopt;
     }
-    if (IsLfsPointer(path)) {
+    if (const auto hash = HashInLfsPointer(path)) {
+      if (*hash != accepted.file_sha256) {
+        Add(FindingKind::kPicture,
+            path.string() + ": is a pointer of Git LFS to another picture than golden.lock names");
+      }
       verdict_.notes.push_back(path.string() +
                                ": a pointer of Git LFS, compared by golden.lock alone; `git lfs "
                                "pull` fetches the picture");
