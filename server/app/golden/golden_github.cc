@@ -73,10 +73,10 @@ std::string ToMarkdown(const std::vector<CaseVerdict>& verdicts, const std::file
   std::size_t shown = 0;
   for (const CaseVerdict* verdict : failures) {
     const std::vector<std::string> lines = Explain(*verdict);
-    const bool has_cause = verdict->outcome == Outcome::kDiffers && verdict->now;
-    std::string row = fmt::format("| **{}** | {} | {} |\n", EscapeHtml(verdict->name),
-                                  lines.empty() ? "" : EscapeHtml(lines.front()),
-                                  has_cause ? CauseOf(verdict->changes) : Name(verdict->outcome));
+    std::string row =
+        fmt::format("| **{}** | {} | {} |\n", EscapeHtml(verdict->name),
+                    lines.empty() ? "" : EscapeHtml(lines.front()),
+                    HasCause(*verdict) ? CauseOf(verdict->changes) : Name(verdict->outcome));
     if (text.size() + row.size() > kMostSummary / 2) break;
     text += row;
     ++shown;

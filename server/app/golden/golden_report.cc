@@ -151,7 +151,7 @@ class ReportWriter {
           "<tr><td class=\"number\">{0}</td><td><a href=\"#case{0}\">{1}</a></td><td "
           "class=\"first\">{2}</td><td>{3}</td><td>{4}</td></tr>\n",
           number, EscapeHtml(verdict->name), WithDots(FirstLine(*verdict)), LayerTags(*verdict),
-          verdict->outcome == Outcome::kDiffers && verdict->now ? CauseOf(verdict->changes) : "–");
+          HasCause(*verdict) ? CauseOf(verdict->changes) : "–");
     }
     html_ += "</tbody></table>\n";
     AddPassed();
@@ -227,7 +227,7 @@ class ReportWriter {
       html_ += fmt::format("<li>{}</li>\n", WithDots(line));
     }
     html_ += "</ul><div>";
-    if (verdict.now) {
+    if (HasCause(verdict)) {
       html_ += fmt::format("<p class=\"cause{}\">{}</p>",
                            CauseOf(verdict.changes) == "program" ? "" : " other",
                            EscapeHtml(CauseText(verdict.changes)));

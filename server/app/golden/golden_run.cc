@@ -61,9 +61,7 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
     line["layers"].push_back(
         {{"name", layer.name}, {"found", layer.found}, {"passes", layer.passes}});
   }
-  line["cause"] = verdict.outcome == Outcome::kDiffers && verdict.now
-                      ? Json(CauseOf(verdict.changes))
-                      : Json(nullptr);
+  line["cause"] = HasCause(verdict) ? Json(CauseOf(verdict.changes)) : Json(nullptr);
   line["changes"] = {{"case", verdict.changes.options},
                      {"inputs", verdict.changes.inputs},
                      {"environment", verdict.changes.environment}};

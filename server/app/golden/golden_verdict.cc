@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/system/words.h"
@@ -26,13 +27,18 @@ const char* LoudName(Outcome outcome) {
   return "NOT COMPARED";
 }
 
+bool HasCause(const CaseVerdict& verdict) {
+  return verdict.now && std::any_of(verdict.findings.begin(), verdict.findings.end(),
+                                    [](const GoldenFinding& finding) {
+                                      return finding.kind != FindingKind::kPicture;
+                                    });
+}
+
 std::vector<std::string> Explain(const CaseVerdict& verdict) {
   std::vector<std::string> lines;
   if (!verdict.reason.empty()) lines.push_back(verdict.reason);
   for (std::string& line : Summarize(verdict.findings)) lines.push_back(std::move(line));
-  if (verdict.outcome == Outcome::kDiffers && verdict.now) {
-    lines.push_back(CauseText(verdict.changes));
-  }
+  if (HasCause(verdict)) lines.push_back(CauseText(verdict.changes));
   for (const std::string& note : verdict.notes) lines.push_back(note);
   return lines;
 }

@@ -49,6 +49,9 @@ struct CaseVerdict {
   double secs = 0;
 };
 
+/// Whether CauseOf() explains the difference: it is of what was drawn, not only of accepted files.
+bool HasCause(const CaseVerdict& verdict);
+
 /// The lines that explain it, the most telling first; empty if it is the same and nothing is weak.
 std::vector<std::string> Explain(const CaseVerdict& verdict);
 
