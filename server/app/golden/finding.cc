@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace kinescope::app {
@@ -14,6 +15,10 @@ namespace {
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding
 constexpr double kMetresLimit = 0.002, kDegreesLimit = 0.05;
+
+constexpr std::array<const char*, 14> kKindNames = {
+    "picture", "class",  "missing", "new",     "text",  "input",     "load",
+    "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
 
 double Degrees(double radians) { return radians * 180 / M_PI; }
 
@@ -27,6 +32,8 @@ std::string PlaceText(const ObjectFact& object) {
 
 class Findings {
  public:
+  explicit Findings(double most_px) : place_limit_px(most_px) {}
+
   /// Where what is added from here on is.
   void At(std::optional<double> x_px, std::optional<double> y_px) {
     x_px_ = x_px;
@@ -43,6 +50,8 @@ class Findings {
         actual, amount);
   }
   std::vector<GoldenFinding> Take() { return std::move(all_); }
+
+  const double place_limit_px;
 
  private:
   std::vector<GoldenFinding> all_;
@@ -69,7 +78,7 @@ void CompareLoads(const ObjectFact& expected, const ObjectFact& actual, Findings
 
 void CompareSight(const ObjectFact& expected, const ObjectFact& actual, Findings& findings) {
   const double moved = std::hypot(expected.x_px - actual.x_px, expected.y_px - actual.y_px);
-  if (moved > kPlaceLimitPx) {
+  if (moved > findings.place_limit_px) {
     findings.Add(FindingKind::kMoved, expected.name, fmt::format("moved by {:.1f} px", moved),
                  PlaceText(expected), PlaceText(actual), moved);
   }
@@ -135,7 +144,7 @@ void CompareTextsOf(const std::string& part, std::vector<TextFact> before,
       findings.AddChange(FindingKind::kText, part, "", old_text, new_text);
     }
   }
-  if (moved <= kPlaceLimitPx) return;
+  if (moved <= findings.place_limit_px) return;
   findings.At(std::nullopt, std::nullopt);
   findings.Add(FindingKind::kMoved, part, fmt::format("texts moved by up to {:.1f} px", moved), "",
                "", moved);
@@ -271,11 +280,12 @@ bool CanBeToldTogether(FindingKind kind) {
 
 }  // namespace
 
-const char* Name(FindingKind kind) {
-  constexpr std::array<const char*, 14> kNames = {
-      "picture", "class",  "missing", "new",     "text",  "input",     "load",
-      "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
-  return kNames.at(static_cast<std::size_t>(kind));
+const char* Name(FindingKind kind) { return kKindNames.at(static_cast<std::size_t>(kind)); }
+
+FindingKind FindingKindNamed(const std::string& name) {
+  const auto found = std::find(kKindNames.begin(), kKindNames.end(), name);
+  if (found == kKindNames.end()) throw std::runtime_error("no kind of finding: '" + name + "'");
+  return static_cast<FindingKind>(found - kKindNames.begin());
 }
 
 void SortWorstFirst(std::vector<GoldenFinding>& findings) {
@@ -314,8 +324,9 @@ std::vector<std::string> Summarize(const std::vector<GoldenFinding>& findings) {
   return lines;
 }
 
-std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual) {
-  Findings findings;
+std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual,
+                                   double place_limit_px) {
+  Findings findings(place_limit_px);
   CompareObjects(expected, actual, findings);
   CompareTexts(expected, actual, findings);
   findings.At(std::nullopt, std::nullopt);

@@ -29,6 +29,8 @@ enum class FindingKind {
 
 /// "class", "missing", ...: as in JSON.
 const char* Name(FindingKind kind);
+/// @throws std::runtime_error if there is none of this name.
+FindingKind FindingKindNamed(const std::string& name);
 
 struct GoldenFinding {
   FindingKind kind = FindingKind::kPixels;
@@ -46,7 +48,8 @@ inline constexpr char kWholePicture[] = "picture";
 inline constexpr double kPlaceLimitPx = 2;
 
 /// What a person would name: objects, texts, cameras, floor. The worst first.
-std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual);
+std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFacts& actual,
+                                   double place_limit_px = kPlaceLimitPx);
 
 /// For people: one line per object, and one for many objects with the same kind of change. In the
 /// order of the findings; those of the whole picture last.

@@ -23,19 +23,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<const CaseOfRun*> Chosen(const GoldenRun& run, const std::vector<std::string>& names) {
-  std::vector<const CaseOfRun*> chosen;
+std::vector<const CaseVerdict*> Chosen(const GoldenRun& run,
+                                       const std::vector<std::string>& names) {
+  std::vector<const CaseVerdict*> chosen;
   if (names.empty()) {
-    for (const CaseOfRun& each : run.cases) {
-      if (!each.is_same && each.now) chosen.push_back(&each);
+    for (const CaseVerdict& each : run.cases) {
+      if (each.outcome != Outcome::kSame && each.now) chosen.push_back(&each);
     }
     return chosen;
   }
   std::vector<std::string> known;
-  for (const CaseOfRun& each : run.cases) known.push_back(each.name);
+  for (const CaseVerdict& each : run.cases) known.push_back(each.name);
   for (const std::string& name : names) {
     const auto found = std::find_if(run.cases.begin(), run.cases.end(),
-                                    [&](const CaseOfRun& each) { return each.name == name; });
+                                    [&](const CaseVerdict& each) { return each.name == name; });
     if (found == run.cases.end()) {
       throw UsageError(fmt::format("the run has no case '{}'{}", name, SuggestionFor(name, known)));
     }
@@ -50,7 +51,7 @@ class Accepting {
       : settings_(settings), suite_(suite) {}
 
   /// @throws std::runtime_error why it is not taken.
-  void Take(const CaseOfRun& drawn) {
+  void Take(const CaseVerdict& drawn) {
     if (!drawn.now) throw std::runtime_error("was not drawn; `golden check` says why");
     const auto found = std::find_if(suite_.cases.begin(), suite_.cases.end(),
                                     [&](const FoundCase& each) { return each.name == drawn.name; });
@@ -63,7 +64,7 @@ class Accepting {
   }
 
  private:
-  void CheckCase(const FoundCase& found, const CaseOfRun& drawn) const {
+  void CheckCase(const FoundCase& found, const CaseVerdict& drawn) const {
     AcceptedCase here = *drawn.now;
     here.options = found.read->given;
     here.inputs = InputsOf(*found.read);
@@ -88,7 +89,7 @@ class Accepting {
   }
 
   // As the others of the suite have it.
-  void CheckEnvironment(const CaseOfRun& drawn) const {
+  void CheckEnvironment(const CaseVerdict& drawn) const {
     if (settings_.takes_other_environment) return;
     for (const auto& [name, accepted] : suite_.lock) {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
@@ -100,7 +101,7 @@ class Accepting {
     }
   }
 
-  void CopyPicture(const FoundCase& found, const CaseOfRun& drawn) const {
+  void CopyPicture(const FoundCase& found, const CaseVerdict& drawn) const {
     const fs::path from = NewPictureOf(settings_.run, drawn.name);
     if (PixelsHash(render::ReadPng(from)) != drawn.now->pixels_sha256 ||
         DigestOf(from).sha256 != drawn.now->file_sha256) {
@@ -128,7 +129,7 @@ int AcceptRun(const AcceptSettings& settings) {
       FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
   Accepting accepting(settings, suite);
   std::size_t taken = 0;
-  for (const CaseOfRun* each : chosen) {
+  for (const CaseVerdict* each : chosen) {
     try {
       accepting.Take(*each);
       ++taken;

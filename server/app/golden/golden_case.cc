@@ -134,6 +134,8 @@ void GoldenCase::List(options::OptionList& option) {
   option("source", source, "recording, relative to the case, or demo:MOTION");
   option("time", time, "time after the first sample");
   option("state", state, "state of the stream that is shown");
+  option("mask", masks, "part of the picture that may show anything, and why; may be repeated");
+  option("tolerance", limits, "limit of a layer that is not the default, and why; may be repeated");
   option("why", why, "purpose of the case, shown when it fails");
   view.List(option);
   person.List(option);

@@ -6,6 +6,8 @@
 ///     camera: front
 ///     size: 640x360
 ///     supersample: 2
+///     mask: [160x40+20+300 the clock of the lab]
+///     tolerance: [light 2 the new driver rounds otherwise]
 ///     why: the purpose of the case in one line, shown when it fails
 ///
 /// Files are relative to the case.
@@ -24,6 +26,7 @@
 #include "render/frame_code.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
+#include "server/app/golden/golden_limits.h"
 #include "server/app/golden/golden_lock.h"
 #include "server/app/golden/picture_facts.h"
 #include "server/picture/view_options.h"
@@ -38,6 +41,8 @@ struct GoldenCase {
   options::Text source;
   options::Number time;  // s
   options::Choice<Liveness> state;
+  MasksValue masks;
+  LimitsValue limits;
   options::Text why;
   ViewOptions view;
   PersonOptions person;

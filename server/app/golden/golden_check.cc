@@ -11,7 +11,6 @@
 
 #include "core/system/sha256.h"
 #include "core/system/starts_with.h"
-#include "core/system/stop_signal.h"
 #include "core/system/words.h"
 #include "render/image/heat_map.h"
 #include "render/image/picture_difference.h"
@@ -42,7 +41,9 @@ class CaseCheck {
       : suite_(suite), found_(found), settings_(settings), environment_(environment) {
     verdict_.name = found.name;
     verdict_.file = suite.CaseFileOf(found);
-    if (found.read) verdict_.why = *found.read->why;
+    if (!found.read) return;
+    verdict_.why = *found.read->why;
+    for (const Mask& mask : *found.read->masks) verdict_.masks.push_back(mask.box);
   }
 
   /// @throws std::runtime_error if a picture cannot be written.
@@ -50,6 +51,7 @@ class CaseCheck {
     try {
       if (!found_.read) throw std::runtime_error(found_.error);
       drawing_ = Draw(*found_.read, renderer);
+      CheckMasks(*found_.read->masks, drawing_.image.width, drawing_.image.height);
       verdict_.now = Describe(*found_.read, drawing_, environment_);
     } catch (const std::exception& error) {
       return NotCompared((found_.read ? verdict_.file.string() + ": " : "") + error.what());
@@ -82,7 +84,7 @@ class CaseCheck {
     verdict_.accepted_pixels = accepted.pixels_sha256;
     verdict_.changes = ChangesBetween(accepted, now);
     verdict_.is_byte_equal = accepted.pixels_sha256 == now.pixels_sha256;
-    verdict_.findings = kinescope::app::Compare(accepted.facts, now.facts);
+    CompareFacts(accepted.facts, now.facts);
     AddObjectLayer(accepted);
     for (const std::string& change : verdict_.changes.inputs) {
       verdict_.findings.push_back({FindingKind::kInput, "input", "", "", 0, "input " + change});
@@ -97,7 +99,7 @@ class CaseCheck {
     verdict_.outcome = Outcome::kDiffers;
     WriteDrawing();
     if (!picture || verdict_.is_byte_equal) return;
-    if (difference_.actual_width == 0) {
+    if (difference_.actual_width == 0) {  // another size
       difference_ = render::FindDifference(*picture, drawing_.image);
     }
     const render::Image difference = render::HeatMap(*picture, difference_);
@@ -105,6 +107,27 @@ class CaseCheck {
     if (picture->width != now.width || picture->height != now.height) return;
     render::WritePng(CompositeOf(settings_.out, found_.name),
                      Composite(verdict_, *picture, drawing_.image, difference));
+  }
+
+  // A mask hides what lies under it, but never a load: its class is what people look for.
+  void CompareFacts(const PictureFacts& expected, const PictureFacts& actual) {
+    const GoldenCase& read = *found_.read;
+    verdict_.findings = kinescope::app::Compare(expected, actual, read.limits->place_px);
+    const auto is_hidden = [&](const GoldenFinding& finding) {
+      return finding.kind != FindingKind::kClass && finding.kind != FindingKind::kLoad &&
+             finding.x_px && IsMasked(*read.masks, *finding.x_px, *finding.y_px);
+    };
+    auto& findings = verdict_.findings;
+    findings.erase(std::remove_if(findings.begin(), findings.end(), is_hidden), findings.end());
+    if (findings.empty() && read.limits->reasons.count("place") > 0 &&
+        !kinescope::app::Compare(expected, actual).empty()) {
+      NoteTolerance("place");
+    }
+  }
+
+  void NoteTolerance(const std::string& layer) {
+    verdict_.notes.push_back(fmt::format("{}: passes by the tolerance of the case ({})", layer,
+                                         found_.read->limits->reasons.at(layer)));
   }
 
   // The key that was changed, or that decides what has changed.
@@ -190,16 +213,23 @@ class CaseCheck {
                  fmt::format("size of the picture: expected {}x{}, found {}x{}", accepted.width,
                              accepted.height, now.width, now.height));
     }
+    const bool is_under_masks =
+        !now.unmasked_sha256.empty() && now.unmasked_sha256 == accepted.unmasked_sha256;
+    if (!picture && is_under_masks && !settings_.is_strict) {
+      verdict_.notes.push_back("pixels differ under the masks alone");
+      return;
+    }
     if (!picture) {
       return Add(FindingKind::kPixels,
                  "pixels differ from those of golden.lock; how many is not known without the "
                  "accepted picture");
     }
-    difference_ = render::FindDifference(*picture, drawing_.image);
-    for (const render::LayerVerdict& layer : JudgeLayers()) {
+    FindDifferenceFrom(*picture);
+    for (const render::LayerVerdict& layer : JudgeLayers(found_.read->limits->picture)) {
       verdict_.layers.push_back({layer.layer, layer.text, layer.passes});
       if (!layer.passes) AddOfLayer(layer);
     }
+    NoteTolerances();
     if (settings_.is_strict) {
       Add(FindingKind::kPixels, fmt::format("not byte-equal: the largest difference is {} levels",
                                             difference_.levels.largest_difference));
@@ -208,21 +238,48 @@ class CaseCheck {
 
   // In the accepted environment no pixel may differ by more than rounding does; in another one,
   // pictures need only be the same to the eye.
-  std::vector<render::LayerVerdict> JudgeLayers() const {
-    std::vector<render::LayerVerdict> layers = render::JudgeLayers(difference_);
+  std::vector<render::LayerVerdict> JudgeLayers(const render::DifferenceLimits& limits) const {
+    render::PictureDifference judged = difference_;
+    judged.limits = limits;
+    std::vector<render::LayerVerdict> layers = render::JudgeLayers(judged);
     const render::Comparison& levels = difference_.levels;
     const bool is_accepted_environment = verdict_.changes.environment.empty();
     layers.erase(std::remove_if(layers.begin(), layers.end(),
                                 [](const auto& layer) { return layer.layer == "size"; }),
                  layers.end());
     for (render::LayerVerdict& layer : layers) {
-      if (layer.layer != "pixels" || !is_accepted_environment || levels.equal()) continue;
+      const bool is_within = levels.pixels <= limits.changed_pixels;
+      if (layer.layer != "pixels" || !is_accepted_environment || is_within) continue;
       layer.passes = false;
       layer.text = fmt::format("{}; {} by more than {} levels", layer.text,
                                Counted(static_cast<std::uint64_t>(levels.pixels), "pixel"),
                                render::kChannelTolerance);
     }
     return layers;
+  }
+
+  void FindDifferenceFrom(const render::Image& picture) {
+    render::Image unmasked = drawing_.image;
+    CopyMasked(*found_.read->masks, picture, unmasked);
+    difference_ = render::FindDifference(picture, unmasked, found_.read->limits->picture);
+    for (const Mask& mask : *found_.read->masks) {
+      const std::int64_t hidden = DifferentPixels(mask, picture, drawing_.image);
+      if (hidden == 0) continue;
+      verdict_.notes.push_back(fmt::format("mask {} hides {} that {} ({})", ToText(mask.box),
+                                           Counted(static_cast<std::uint64_t>(hidden), "pixel"),
+                                           hidden == 1 ? "differs" : "differ", mask.reason));
+    }
+  }
+
+  // Of the layers that pass, but would not by the limits of other cases.
+  void NoteTolerances() {
+    for (const render::LayerVerdict& layer : JudgeLayers({})) {
+      const auto judged = std::find_if(verdict_.layers.begin(), verdict_.layers.end(),
+                                       [&](const auto& each) { return each.name == layer.layer; });
+      if (!layer.passes && judged != verdict_.layers.end() && judged->passes) {
+        NoteTolerance(layer.layer);
+      }
+    }
   }
 
   void AddOfLayer(const render::LayerVerdict& layer) {
@@ -269,11 +326,6 @@ class CaseCheck {
   CaseVerdict verdict_;
 };
 
-void StopIfRequested(std::size_t finished, std::size_t all) {
-  if (!StopRequested()) return;
-  throw std::runtime_error(fmt::format("interrupted after {} of {} cases", finished, all));
-}
-
 CaseVerdict OfNoCase(const std::string& name, const fs::path& file, const std::string& way_out) {
   CaseVerdict verdict;
   verdict.name = name;
@@ -302,6 +354,9 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
                       const std::map<std::string, std::string>& environment) {
   AcceptedCase described;
   described.pixels_sha256 = PixelsHash(drawing.image);
+  if (!golden_case.masks->empty()) {
+    described.unmasked_sha256 = PixelsHash(WithoutMasked(*golden_case.masks, drawing.image));
+  }
   described.width = drawing.image.width;
   described.height = drawing.image.height;
   described.options = golden_case.given;
@@ -311,24 +366,26 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
   return described;
 }
 
-void CheckSuite(const GoldenSuite& suite, const CheckSettings& settings, render::Renderer& renderer,
-                const std::function<void(const CaseVerdict&)>& report) {
+std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
+                                   const CheckSettings& settings, render::Renderer& renderer) {
   const auto environment = EnvironmentOf(renderer.info());
-  std::size_t finished = 0;
-  for (const FoundCase& found : suite.cases) {
-    StopIfRequested(finished++, suite.cases.size());
-    const Clock::time_point begin = Clock::now();
-    CaseVerdict verdict = CaseCheck(suite, found, settings, environment).Run(renderer);
-    verdict.secs = std::chrono::duration<double>(Clock::now() - begin).count();
-    report(verdict);
-  }
+  const Clock::time_point begin = Clock::now();
+  CaseVerdict verdict = CaseCheck(suite, found, settings, environment).Run(renderer);
+  verdict.secs = std::chrono::duration<double>(Clock::now() - begin).count();
+  return {verdict};
+}
+
+std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite) {
+  std::vector<CaseVerdict> verdicts;
   for (const fs::path& orphan : suite.orphans) {
-    report(OfNoCase(orphan, suite.folder / orphan, "remove it, or write the case"));
+    verdicts.push_back(OfNoCase(orphan, suite.folder / orphan, "remove it, or write the case"));
   }
   for (const std::string& name : suite.unknown_locks) {
-    report(OfNoCase("golden.lock: " + name, suite.lock_file(),
-                    "run `kinescope golden update` to remove the entry, or write the case"));
+    verdicts.push_back(
+        OfNoCase("golden.lock: " + name, suite.lock_file(),
+                 "run `kinescope golden update` to remove the entry, or write the case"));
   }
+  return verdicts;
 }
 
 }  // namespace kinescope::app

@@ -1,12 +1,11 @@
-/// `golden check`: draws every case and says whether its picture has changed, and what in it. A
-/// case that cannot be compared has a verdict of its own and keeps no other case from being
-/// compared.
+/// Draws a golden case and says whether its picture has changed, and what in it. A case that cannot
+/// be compared has a verdict, too.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "render/renderer.h"
 #include "server/app/golden/golden_suite.h"
@@ -19,10 +18,12 @@ struct CheckSettings {
   bool is_strict = false;     // only equal bytes are the same
 };
 
-/// Calls `report` with every verdict, in the order of the suite, what belongs to no case last.
-/// @throws std::runtime_error if a picture cannot be written, or when interrupted.
-void CheckSuite(const GoldenSuite& suite, const CheckSettings& settings, render::Renderer& renderer,
-                const std::function<void(const CaseVerdict&)>& report);
+/// Draws a case and compares it. @throws std::runtime_error if a picture cannot be written.
+std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
+                                   const CheckSettings& settings, render::Renderer& renderer);
+
+/// Of the files that belong to no case.
+std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite);
 
 /// The pictures of a case in the folder of a run.
 std::filesystem::path NewPictureOf(const std::filesystem::path& out, const std::string& name);

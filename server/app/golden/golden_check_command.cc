@@ -1,6 +1,8 @@
 // `kinescope golden check`: have the pictures that people see changed, and what in them?
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,10 +16,13 @@
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_github.h"
+#include "server/app/golden/golden_jobs.h"
 #include "server/app/golden/golden_junit.h"
 #include "server/app/golden/golden_report.h"
 #include "server/app/golden/golden_run.h"
+#include "server/app/golden/golden_verdict_json.h"
 #include "server/app/print.h"
+#include "server/picture/cores.h"
 
 namespace kinescope::app {
 namespace {
@@ -25,9 +30,36 @@ namespace {
 struct CheckOptions {
   GoldenCaseOptions cases;
   options::Text out{"out/golden"}, junit, summary;
-  options::Flag json, is_strict;
+  options::Flag json, is_strict, answers;
+  options::Whole jobs{0, {0, 64, ""}};
+  options::Number case_limit_secs{120, {0.1, 86'400, "s"}};
   BackendOptions backend;
 };
+
+// Of a process that compares for this one.
+std::vector<std::string> CommandOfJobs(const CheckOptions& options) {
+  std::vector<std::string> command = {
+      std::filesystem::read_symlink("/proc/self/exe").string(),
+      "golden",
+      "check",
+      "--answers",
+      "--folder=" + *options.cases.folder,
+      "--out=" + *options.out,
+      "--backend=" + options.backend.backend.ToText(),
+      "--draw_limit_secs=" + options.backend.draw_limit_secs.ToText()};
+  if (*options.is_strict) command.emplace_back("--strict");
+  return command;
+}
+
+JobSettings JobsOf(const CheckOptions& options, std::size_t cases) {
+  JobSettings settings;
+  const std::int64_t asked = *options.jobs > 0 ? *options.jobs : CoresHere();
+  settings.jobs =
+      static_cast<int>(std::clamp<std::int64_t>(asked, 1, static_cast<std::int64_t>(cases)));
+  settings.limit_secs = *options.case_limit_secs;
+  settings.command = CommandOfJobs(options);
+  return settings;
+}
 
 void PrintVerdict(const CaseVerdict& verdict) {
   const char* const how =
@@ -84,11 +116,16 @@ void WriteResults(const CheckOptions& options, const std::vector<CaseVerdict>& v
 
 int CheckAll(const CheckOptions& options) {
   const GoldenSuite suite = options.cases.Find();
-  const auto renderer = StartRenderer(options.backend);
+  if (*options.answers) {
+    AnswerOrders(suite, {*options.out, *options.is_strict}, options.backend);
+    return 0;
+  }
+  const JobSettings jobs = JobsOf(options, suite.cases.size());
+  render::UseFillingThreads(FillingThreads(CoresHere(), jobs.jobs));
   ClearRun(*options.out);
   const GithubOutput github(*options.json);
   std::vector<CaseVerdict> verdicts;
-  CheckSuite(suite, {*options.out, *options.is_strict}, *renderer, [&](const CaseVerdict& verdict) {
+  CheckInProcesses(suite, jobs, [&](const CaseVerdict& verdict) {
     verdicts.push_back(verdict);
     if (*options.json) {
       Print("{}\n", JsonText(ToJson(verdict, *options.out)));
@@ -115,11 +152,17 @@ Command GoldenCheckCommand() {
   check.options("out", values->out,
                 "folder for the report, the verdicts (run.json) and the pictures of cases that are "
                 "not the same");
+  check.options("jobs", values->jobs,
+                "cases that are drawn at a time; each in a process of its own; 0: one per core");
+  check.options("case_limit_secs", values->case_limit_secs,
+                "time after which a case is given up as one that hangs");
   check.options("strict", values->is_strict,
                 "only equal bytes in the accepted environment are the same");
   check.options("junit", values->junit, "JUnit XML file for CI servers");
   check.options("summary", values->summary, "Markdown file, for comments and pages of jobs");
   check.options("json", values->json, "print the verdicts as JSON");
+  check.options.Group(options::kHidden);
+  check.options("answers", values->answers, "compares the cases that standard input names");
   check.positionals = {"folder", "case"};
   check.footer =
       "Exit code: 0 all are the same, 1 a case differs or a picture belongs to no case, 2 a case "

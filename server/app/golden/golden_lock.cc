@@ -55,10 +55,14 @@ std::map<std::string, std::string> EnvironmentOf(const render::RendererInfo& ren
 }
 
 std::string ToJson(const AcceptedCase& accepted) {
+  const std::string unmasked =
+      accepted.unmasked_sha256.empty()
+          ? ""
+          : fmt::format(" \"unmasked\": \"{}\",\n", accepted.unmasked_sha256);
   return fmt::format(
-      "{{\n \"pixels\": \"{}\",\n \"file\": \"{}\",\n \"width\": {}, \"height\": {},\n"
+      "{{\n \"pixels\": \"{}\",\n{} \"file\": \"{}\",\n \"width\": {}, \"height\": {},\n"
       " \"options\": {},\n {},\n \"environment\": {},\n {}\n}}",
-      accepted.pixels_sha256, accepted.file_sha256, accepted.width, accepted.height,
+      accepted.pixels_sha256, unmasked, accepted.file_sha256, accepted.width, accepted.height,
       JsonText(json(accepted.options)), InputLines(accepted.inputs),
       JsonText(json(accepted.environment)), ToJson(accepted.facts));
 }
@@ -66,6 +70,7 @@ std::string ToJson(const AcceptedCase& accepted) {
 AcceptedCase AcceptedFrom(const json& json) {
   AcceptedCase accepted;
   accepted.pixels_sha256 = json.at("pixels");
+  accepted.unmasked_sha256 = json.value("unmasked", "");
   accepted.file_sha256 = json.at("file");
   accepted.width = static_cast<int>(CountFrom(json.at("width"), kMaxPictureSide));
   accepted.height = static_cast<int>(CountFrom(json.at("height"), kMaxPictureSide));

@@ -30,9 +30,10 @@ struct InputFact {
 
 /// A picture with all that is known of it.
 struct AcceptedCase {
-  std::string pixels_sha256;  // of size and pixels, however the file is compressed
-  std::string file_sha256;    // of the PNG file: also what a pointer of Git LFS names
-  int width = 0, height = 0;  // px
+  std::string pixels_sha256;    // of size and pixels, however the file is compressed
+  std::string unmasked_sha256;  // of what no mask covers; "": there are no masks
+  std::string file_sha256;      // of the PNG file: also what a pointer of Git LFS names
+  int width = 0, height = 0;    // px
   std::map<std::string, nlohmann::json> options;  // of the case, those that it sets
   std::vector<InputFact> inputs;
   std::map<std::string, std::string> environment;  // what else decides pixels: "renderer", "font"

@@ -315,6 +315,7 @@ class ReportWriter {
         "width=\"{}\" height=\"{}\" href=\"{}\"/>",
         caption, ViewBox(verdict), EscapeHtml(verdict.name), caption, picture.id,
         verdict.now->width, verdict.now->height, picture.url);
+    for (const render::Tile& mask : verdict.masks) html_ += MaskRect(mask);
     const std::string near = NearOf(verdict);
     html_ += near.empty() ? "</svg>" : fmt::format("<rect {}/></svg>", near);
     if (!near.empty()) {
@@ -322,6 +323,13 @@ class ReportWriter {
                            NearBox(verdict), picture.id);
     }
     html_ += "</figure>";
+  }
+
+  static std::string MaskRect(const render::Tile& mask) {
+    return fmt::format(
+        "<rect class=\"mask\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"><title>masked: not "
+        "compared</title></rect>",
+        mask.x, mask.y, mask.width, mask.height);
   }
 
   static std::string NearOf(const CaseVerdict& verdict) {

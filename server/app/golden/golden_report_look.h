@@ -61,6 +61,7 @@ ul.words .pixels::before, ul.words .structure::before, ul.words .light::before {
 figure { margin: 0; min-width: 0; } figcaption { font-size: 12px; color: var(--quiet); margin-bottom: 3px; } figcaption b { color: var(--ink); }
 svg.shot { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; background: #fff; }
 svg.near { margin-top: 6px; } svg.near * { image-rendering: pixelated; } svg.shot rect { fill: none; stroke: #1d5aa0; stroke-width: 1.5; stroke-dasharray: 5 3; }
+svg.shot rect.mask { fill: rgb(133 80 0 / .2); stroke: #855000; stroke-dasharray: none; }
 .big { display: none; position: relative; max-width: min(1240px, calc((100vh - 120px) * 16 / 9)); } .big .over { position: absolute; inset: 0; }
 .big .label { position: absolute; left: 10px; bottom: 10px; background: #1a212b; color: #fff; padding: 3px 10px; border-radius: 5px; font-weight: 600; }
 .slide { display: none; width: 100%; max-width: min(1240px, calc((100vh - 120px) * 16 / 9)); }

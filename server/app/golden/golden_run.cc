@@ -7,7 +7,7 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
-#include "server/app/golden/golden_check.h"
+#include "server/app/golden/golden_verdict_json.h"
 
 namespace kinescope::app {
 namespace {
@@ -20,56 +20,7 @@ constexpr int kRunSchema = 1;
 
 fs::path FileOf(const fs::path& out) { return out / "run.json"; }
 
-Json ToJson(const GoldenFinding& finding) {
-  Json line = {{"kind", Name(finding.kind)}, {"object", finding.object}};
-  if (!finding.expected.empty()) line["expected"] = finding.expected;
-  if (!finding.actual.empty()) line["found"] = finding.actual;
-  if (finding.amount != 0) line["amount"] = finding.amount;
-  line["text"] = finding.text;
-  return line;
-}
-
-Json PathIfThere(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored) ? Json(path.string()) : Json(nullptr);
-}
-
-CaseOfRun CaseFrom(const json& line) {
-  CaseOfRun read;
-  read.name = line.at("case");
-  read.is_same = line.at("outcome") == Name(Outcome::kSame);
-  read.accepted_pixels = line.at("accepted_pixels");
-  if (!line.at("now").is_null()) read.now = AcceptedFrom(line.at("now"));
-  return read;
-}
-
 }  // namespace
-
-Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
-  Json line = {{"case", verdict.name},
-               {"why", verdict.why},
-               {"file", verdict.file.string()},
-               {"outcome", Name(verdict.outcome)},
-               {"same", verdict.outcome == Outcome::kSame},
-               {"byte_equal", verdict.is_byte_equal},
-               {"problems", Explain(verdict)},
-               {"seconds", verdict.secs}};
-  line["findings"] = Json::array();
-  for (const GoldenFinding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
-  line["layers"] = Json::array();
-  for (const GoldenLayer& layer : verdict.layers) {
-    line["layers"].push_back(
-        {{"name", layer.name}, {"found", layer.found}, {"passes", layer.passes}});
-  }
-  line["cause"] = HasCause(verdict) ? Json(CauseOf(verdict.changes)) : Json(nullptr);
-  line["changes"] = {{"case", verdict.changes.options},
-                     {"inputs", verdict.changes.inputs},
-                     {"environment", verdict.changes.environment}};
-  line["picture"] = PathIfThere(NewPictureOf(out, verdict.name));
-  line["difference"] = PathIfThere(DifferenceOf(out, verdict.name));
-  line["comparison"] = PathIfThere(CompositeOf(out, verdict.name));
-  return line;
-}
 
 void ClearRun(const fs::path& out) {
   std::error_code error;
@@ -96,10 +47,7 @@ void WriteRun(const fs::path& out, const fs::path& folder,
               {"folder", folder.string()},      {"headline", Headline(counts)},
               {"exit_code", counts.ExitCode()}, {"cases", Json::array()}};
   for (const CaseVerdict& verdict : verdicts) {
-    Json line = ToJson(verdict, out);
-    line["accepted_pixels"] = verdict.accepted_pixels;
-    line["now"] = verdict.now ? Json::parse(ToJson(*verdict.now)) : Json(nullptr);
-    run["cases"].push_back(std::move(line));
+    run["cases"].push_back(ToWholeJson(verdict, out));
   }
   fs::create_directories(out);
   render::WriteNewFile(FileOf(out), JsonText(run, 1) + "\n");
@@ -113,7 +61,7 @@ GoldenRun ParseRun(const std::string& text) {
   }
   GoldenRun run;
   run.folder = document.at("folder").get<std::string>();
-  for (const auto& line : document.at("cases")) run.cases.push_back(CaseFrom(line));
+  for (const auto& line : document.at("cases")) run.cases.push_back(VerdictFrom(line));
   return run;
 }
 

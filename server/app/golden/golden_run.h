@@ -4,18 +4,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "server/app/golden/golden_verdict.h"
 
 namespace kinescope::app {
-
-/// A verdict with numbers and paths. Members `case`, `outcome`, `problems`, `findings`, `layers`,
-/// ...
-nlohmann::ordered_json ToJson(const CaseVerdict& verdict, const std::filesystem::path& out);
 
 /// Removes what an earlier run of this name has left: its pictures and its `run.json`. Other files
 /// stay. @throws std::runtime_error if they cannot be removed.
@@ -25,16 +19,9 @@ void ClearRun(const std::filesystem::path& out);
 void WriteRun(const std::filesystem::path& out, const std::filesystem::path& folder,
               const std::vector<CaseVerdict>& verdicts);
 
-struct CaseOfRun {
-  std::string name;
-  bool is_same = false;
-  std::string accepted_pixels;      // SHA-256 that was compared with; "": nothing was accepted
-  std::optional<AcceptedCase> now;  // nullopt: it was not drawn
-};
-
 struct GoldenRun {
   std::filesystem::path folder;  // of the cases, as the run was given it
-  std::vector<CaseOfRun> cases;
+  std::vector<CaseVerdict> cases;
 };
 
 /// The content of `run.json`. @throws std::exception with the reason.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/image/tile.h"
 #include "server/app/golden/finding.h"
 #include "server/app/golden/golden_changes.h"
 #include "server/app/golden/golden_lock.h"
@@ -41,6 +42,7 @@ struct CaseVerdict {
   std::vector<GoldenFinding> findings;  // kDiffers: the worst first
   std::string reason;                   // kNotCompared: why
   std::vector<std::string> notes;       // what makes the check weaker
+  std::vector<render::Tile> masks;      // parts that are not compared, px
   std::vector<GoldenLayer> layers;      // empty where the pixels are equal
   bool is_byte_equal = false;
   GoldenChanges changes;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/system/check.h"
+#include "server/picture/cores.h"
 
 namespace kinescope::app {
 
@@ -123,8 +124,6 @@ void DrawPool::Work(std::promise<render::RendererInfo>* started) {
   }
 }
 
-int CoresHere() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
-
 int DefaultJobs(int cores, const render::PictureSpec& spec) {
   // llvmpipe fills pixels on threads of its own, but nothing of what comes before and after them;
   // another picture does. Each renderer has three textures of what is drawn at once:
@@ -142,13 +141,6 @@ int DefaultJobs(int cores, const render::PictureSpec& spec) {
 
 int JobsFor(std::int64_t asked, const render::PictureSpec& spec) {
   return asked > 0 ? static_cast<int>(asked) : DefaultJobs(CoresHere(), spec);
-}
-
-int FillingThreads(int cores, int jobs) {
-  // The thread that draws waits for them. By default llvmpipe takes one per core for each renderer,
-  // which costs a twelfth more to wake up.
-  constexpr int kMost = 8;
-  return std::clamp(cores / jobs, 1, kMost);
 }
 
 std::size_t MostPictures(int jobs, int width, int height) {

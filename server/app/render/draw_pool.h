@@ -70,18 +70,12 @@ class DrawPool {
   std::vector<std::thread> threads_;
 };
 
-/// The number of cores of this machine.
-int CoresHere();
-
 /// The number of threads that draw pictures like `spec` without wasting time of so many cores; the
 /// textures of all of them stay below 350 MB, if one alone does.
 int DefaultJobs(int cores, const render::PictureSpec& spec);
 
 /// `asked` (--jobs), or, if it is 0, DefaultJobs() of this machine.
 int JobsFor(std::int64_t asked, const render::PictureSpec& spec);
-
-/// For render::UseFillingThreads.
-int FillingThreads(int cores, int jobs);
 
 /// The number of pictures of a size that `jobs` threads and the encoders behind them may hold: two
 /// per thread and one more, up to 64 MiB, but always one more than threads.

@@ -23,6 +23,7 @@
 #include "server/app/render/render_tasks.h"
 #include "server/app/render/resume_check.h"
 #include "server/picture/backend.h"
+#include "server/picture/cores.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 

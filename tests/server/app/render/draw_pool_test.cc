@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/picture/cores.h"
 #include "tests/deadline.h"
 #include "tests/server/picture/fake_renderer.h"
 
