@@ -35,12 +35,15 @@ std::vector<const CaseVerdict*> Chosen(const GoldenRun& run,
   std::vector<std::string> known;
   for (const CaseVerdict& each : run.cases) known.push_back(each.name);
   for (const std::string& name : names) {
-    const auto found = std::find_if(run.cases.begin(), run.cases.end(),
-                                    [&](const CaseVerdict& each) { return each.name == name; });
-    if (found == run.cases.end()) {
+    bool is_known = false;
+    for (const CaseVerdict& each : run.cases) {
+      is_known = is_known || CaseNameOf(each.name) == CaseNameOf(name);
+      const bool is_of_clip = CaseNameOf(each.name) == name && each.outcome != Outcome::kSame;
+      if (each.name == name || is_of_clip) chosen.push_back(&each);
+    }
+    if (!is_known) {
       throw UsageError(fmt::format("the run has no case '{}'{}", name, SuggestionFor(name, known)));
     }
-    chosen.push_back(&*found);
   }
   return chosen;
 }
@@ -53,13 +56,14 @@ class Accepting {
   /// @throws std::runtime_error why it is not taken.
   void Take(const CaseVerdict& drawn) {
     if (!drawn.now) throw std::runtime_error("was not drawn; `golden check` says why");
+    const std::string name = CaseNameOf(drawn.name);
     const auto found = std::find_if(suite_.cases.begin(), suite_.cases.end(),
-                                    [&](const FoundCase& each) { return each.name == drawn.name; });
+                                    [&](const FoundCase& each) { return each.name == name; });
     if (found == suite_.cases.end()) throw std::runtime_error("has no .yaml here");
     if (!found->read) throw std::runtime_error(found->error);
     CheckCase(*found, drawn);
     CheckEnvironment(drawn);
-    CopyPicture(*found, drawn);
+    CopyPicture(drawn);
     suite_.lock[drawn.name] = *drawn.now;
   }
 
@@ -79,7 +83,7 @@ class Accepting {
           fmt::format("its inputs are not those of the run ({}); run `golden check` again",
                       fmt::join(changes.inputs, "; ")));
     }
-    const AcceptedCase* const accepted = suite_.AcceptedOf(found);
+    const AcceptedCase* const accepted = suite_.AcceptedOf(drawn.name);
     const std::string pixels = accepted != nullptr ? accepted->pixels_sha256 : "";
     if (pixels == drawn.now->pixels_sha256) return;  // taken already, by another one
     if (pixels != drawn.accepted_pixels) {
@@ -101,14 +105,14 @@ class Accepting {
     }
   }
 
-  void CopyPicture(const FoundCase& found, const CaseVerdict& drawn) const {
+  void CopyPicture(const CaseVerdict& drawn) const {
     const fs::path from = NewPictureOf(settings_.run, drawn.name);
     if (PixelsHash(render::ReadPng(from)) != drawn.now->pixels_sha256 ||
         DigestOf(from).sha256 != drawn.now->file_sha256) {
       throw std::runtime_error(from.string() + ": is not the picture of the run; its hash differs");
     }
     std::ifstream file(from, std::ios::binary);
-    render::WriteNewFile(suite_.PictureOf(found),
+    render::WriteNewFile(suite_.PictureOf(drawn.name),
                          std::string(std::istreambuf_iterator<char>(file), {}));
   }
 

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "server/options/option_json.h"
 #include "server/options/yaml_options.h"
 #include "server/picture/render_planner.h"
+#include "server/picture/scene_additions.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 #include "server/source/source_identity.h"
@@ -21,6 +23,8 @@ namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr long kMostFrames = 200;  // of a clip, that are compared
 
 options::PixelSize PixelSizeOfCases() { return {640, 360}; }
 
@@ -105,6 +109,21 @@ int LineOf(const std::string& given_as, const fs::path& yaml) {
   return at < given_as.size() ? std::max(1, std::atoi(given_as.c_str() + at)) : 1;
 }
 
+void CheckClip(const GoldenCase& golden_case, const fs::path& yaml) {
+  if (golden_case.name.find(kFrameSign) != std::string::npos) {
+    throw UsageError(
+        fmt::format("{}: the name of a case has no '{}', which stands before the "
+                    "number of a frame",
+                    yaml.string(), kFrameSign));
+  }
+  if (!golden_case.seconds) return;
+  if (*golden_case.state != Liveness::kLive || golden_case.view.views->has_times()) {
+    throw UsageError(yaml.string() +
+                     ": seconds: a clip has one moment per picture, of a live stream; leave out "
+                     "state and the times of views");
+  }
+}
+
 PictureFacts FactsOf(const RenderRequest& request,
                      const std::vector<render::SphereInPicture>& spheres,
                      render::Renderer& renderer) {
@@ -120,10 +139,63 @@ PictureFacts FactsOf(const RenderRequest& request,
   return facts;
 }
 
+GoldenDrawing DrawOne(const GoldenCase& golden_case, const RenderRequest& request,
+                      render::Renderer& renderer) {
+  GoldenDrawing drawing;
+  drawing.image = renderer.Render(request.state, request.camera, request.spec);
+  drawing.spheres = SpheresOf(request);
+  drawing.facts = FactsOf(request, drawing.spheres, renderer);
+  if (request.spec.overlays && request.spec.parts.frame_code &&
+      *golden_case.state != Liveness::kNoData) {
+    drawing.frame_code = {request.state.counter, request.state.time_code_millis};
+  }
+  return drawing;
+}
+
+// All pictures of the clip are planned, because a camera that follows depends on those before.
+void DrawClip(const GoldenCase& golden_case, const SceneOptions& options,
+              render::Renderer& renderer, const std::function<void(GoldenDrawing)>& on_drawing) {
+  const double begin = *golden_case.time, length = *golden_case.seconds, fps = *golden_case.fps;
+  const std::string where = fmt::format("golden case {}: seconds: {}", golden_case.name, length);
+  const long count = std::max(1L, std::lround(std::floor(length * fps + 1e-9)));
+  if (count / *golden_case.every >= kMostFrames) {
+    throw UsageError(
+        fmt::format("{}: {} pictures would be compared, {} at most; write a larger "
+                    "`every`",
+                    where, count / *golden_case.every + 1, kMostFrames));
+  }
+  CheckReach(where, begin + length, *golden_case.source);
+  RenderPlanner planner(golden_case.view, SceneAdditions(golden_case.view, {}, options),
+                        Fit::kClip);
+  if (planner.needs_prescan()) {
+    SceneReader reader(*golden_case.source, options);
+    PrescanClip({&planner}, reader, begin + length);
+  }
+  SceneReader reader(*golden_case.source, options);
+  SceneTimeline timeline(reader);
+  RememberBefore(begin, timeline, planner);
+  for (long number = 0; number < count; ++number) {
+    const double secs = begin + static_cast<double>(number) / fps;
+    std::optional<SceneState> scene = timeline.At(secs);
+    if (!scene) {
+      throw UsageError(fmt::format("{}: source {} ends at {:.3f} s, before the clip", where,
+                                   *golden_case.source, timeline.NewestSecs()));
+    }
+    const RenderRequest request = planner.Next(*std::move(scene));
+    if (number % *golden_case.every != 0) continue;
+    GoldenDrawing drawing = DrawOne(golden_case, request, renderer);
+    drawing.frame = {number, secs};
+    on_drawing(std::move(drawing));
+  }
+}
+
 }  // namespace
 
 GoldenCase::GoldenCase()
     : time(0, {0, kLatestSecs, "s"}),
+      seconds(options::Number(0, {0, kLatestSecs, "s", true})),
+      fps(30, {1, 240, "pictures per second"}),
+      every(15, {1, 100'000, ""}),
       state(
           {{"live", Liveness::kLive}, {"stale", Liveness::kStale}, {"no data", Liveness::kNoData}},
           Liveness::kLive) {
@@ -133,6 +205,11 @@ GoldenCase::GoldenCase()
 void GoldenCase::List(options::OptionList& option) {
   option("source", source, "recording, relative to the case, or demo:MOTION");
   option("time", time, "time after the first sample");
+  option("seconds", seconds, "of a clip, which begins at that time: its length");
+  option("fps", fps, "of a clip: its frame rate, pictures per second");
+  option.HasNoEffect("fps", "without seconds", [this] { return !seconds; });
+  option("every", every, "of a clip: every n-th picture is compared");
+  option.HasNoEffect("every", "without seconds", [this] { return !seconds; });
   option("state", state, "state of the stream that is shown");
   option("mask", masks, "part of the picture that may show anything, and why; may be repeated");
   option("tolerance", limits, "limit of a layer that is not the default, and why; may be repeated");
@@ -149,6 +226,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   options::OptionList list;
   golden_case.List(list);
   options::YamlOptions(yaml.string()).SetAll(list);
+  list.CheckEffects();
   for (const std::string& warning : list.warnings()) spdlog::warn(warning);
   for (const options::Option& option : list) {
     if (option.given_as.empty()) continue;
@@ -157,6 +235,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
     golden_case.given[option.name] = options::ToJson(*option.value);
   }
   if (golden_case.source->empty()) throw UsageError(yaml.string() + ": source is missing");
+  CheckClip(golden_case, yaml);
   if (*golden_case.view.loads == render::LoadsShown::kSkin) {
     throw UsageError(yaml.string() +
                      ": loads: skin hides the load spheres, which are compared; use both");
@@ -181,8 +260,10 @@ std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
   return inputs;
 }
 
-GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
+void Draw(const GoldenCase& golden_case, render::Renderer& renderer,
+          const std::function<void(GoldenDrawing)>& on_drawing) {
   const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
+  if (golden_case.seconds) return DrawClip(golden_case, options, renderer, on_drawing);
   RenderPlanner planner(golden_case.view, {}, options);
   if (planner.needs_prescan()) {
     SceneReader reader(*golden_case.source, options);
@@ -192,15 +273,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
       golden_case.view.views->has_times()
           ? RequestOfMoments(golden_case, options, planner)
           : planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
-  GoldenDrawing drawing;
-  drawing.image = renderer.Render(request.state, request.camera, request.spec);
-  drawing.spheres = SpheresOf(request);
-  drawing.facts = FactsOf(request, drawing.spheres, renderer);
-  if (request.spec.overlays && request.spec.parts.frame_code &&
-      *golden_case.state != Liveness::kNoData) {
-    drawing.frame_code = {request.state.counter, request.state.time_code_millis};
-  }
-  return drawing;
+  on_drawing(DrawOne(golden_case, request, renderer));
 }
 
 }  // namespace kinescope::app

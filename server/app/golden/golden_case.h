@@ -2,6 +2,7 @@
 ///
 ///     source: demo:lift       # or a file, relative to the case
 ///     time: 2.5               # s after the first sample
+///     seconds: 2              # a clip: its length
 ///     state: live             # live | stale | no data
 ///     camera: front
 ///     size: 640x360
@@ -14,6 +15,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,6 +28,7 @@
 #include "render/frame_code.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
+#include "server/app/golden/golden_frame.h"
 #include "server/app/golden/golden_limits.h"
 #include "server/app/golden/golden_lock.h"
 #include "server/app/golden/picture_facts.h"
@@ -40,6 +43,10 @@ struct GoldenCase {
   std::string name;  // of the file, without .yaml
   options::Text source;
   options::Number time;  // s
+  /// Of a clip, which begins at `time`: of its pictures, every n-th is compared.
+  options::Optional<options::Number> seconds;
+  options::Number fps;
+  options::Whole every;
   options::Choice<Liveness> state;
   MasksValue masks;
   LimitsValue limits;
@@ -61,6 +68,7 @@ GoldenCase LoadGoldenCase(const std::filesystem::path& yaml);
 std::vector<InputFact> InputsOf(const GoldenCase& golden_case);
 
 struct GoldenDrawing {
+  std::optional<GoldenFrame> frame;  // of a clip
   render::Image image;
   /// Several views: "<view>/<joint>", those that lie wholly within their view.
   std::vector<render::SphereInPicture> spheres;
@@ -68,6 +76,9 @@ struct GoldenDrawing {
   PictureFacts facts;
 };
 
-GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer);
+/// One picture; of a clip, the pictures in order, drawn as the clip is, one after the other.
+/// @throws std::exception with the reason; some pictures may have been drawn then.
+void Draw(const GoldenCase& golden_case, render::Renderer& renderer,
+          const std::function<void(GoldenDrawing)>& on_drawing);
 
 }  // namespace kinescope::app

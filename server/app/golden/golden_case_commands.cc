@@ -34,7 +34,7 @@ struct CaseListOptions {
 int ListAll(const CaseListOptions& options) {
   const GoldenSuite suite = options.cases.Find();
   for (const FoundCase& found : suite.cases) {
-    const bool is_accepted = suite.AcceptedOf(found) != nullptr;
+    const bool is_accepted = !suite.AcceptedPicturesOf(found).empty();
     const std::string why = found.read ? *found.read->why : found.error;
     if (*options.json) {
       Print("{}\n", JsonText(nlohmann::json{{"case", found.name},

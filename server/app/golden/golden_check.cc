@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -34,35 +35,41 @@ std::optional<std::string> HashInLfsPointer(const fs::path& path) {
   return at == std::string::npos ? "" : text.substr(at + sizeof kHash - 1, 64);
 }
 
-class CaseCheck {
+CaseVerdict VerdictOf(const GoldenSuite& suite, const FoundCase& found,
+                      const std::optional<GoldenFrame>& frame) {
+  CaseVerdict verdict;
+  verdict.name = PictureName(found.name, frame);
+  verdict.frame = frame;
+  verdict.file = suite.CaseFileOf(found);
+  if (!found.read) return verdict;
+  verdict.why = *found.read->why;
+  for (const Mask& mask : *found.read->masks) verdict.masks.push_back(mask.box);
+  return verdict;
+}
+
+// Of one picture.
+class PictureCheck {
  public:
-  CaseCheck(const GoldenSuite& suite, const FoundCase& found, const CheckSettings& settings,
-            const std::map<std::string, std::string>& environment)
-      : suite_(suite), found_(found), settings_(settings), environment_(environment) {
-    verdict_.name = found.name;
-    verdict_.file = suite.CaseFileOf(found);
-    if (!found.read) return;
-    verdict_.why = *found.read->why;
-    for (const Mask& mask : *found.read->masks) verdict_.masks.push_back(mask.box);
+  PictureCheck(const GoldenSuite& suite, const FoundCase& found, const CheckSettings& settings,
+               const std::map<std::string, std::string>& environment, GoldenDrawing drawing)
+      : suite_(suite),
+        found_(found),
+        settings_(settings),
+        drawing_(std::move(drawing)),
+        verdict_(VerdictOf(suite, found, drawing_.frame)) {
+    CheckMasks(*found.read->masks, drawing_.image.width, drawing_.image.height);
+    verdict_.now = Describe(*found.read, drawing_, environment);
   }
 
   /// @throws std::runtime_error if a picture cannot be written.
-  CaseVerdict Run(render::Renderer& renderer) {
-    try {
-      if (!found_.read) throw std::runtime_error(found_.error);
-      drawing_ = Draw(*found_.read, renderer);
-      CheckMasks(*found_.read->masks, drawing_.image.width, drawing_.image.height);
-      verdict_.now = Describe(*found_.read, drawing_, environment_);
-    } catch (const std::exception& error) {
-      return NotCompared((found_.read ? verdict_.file.string() + ": " : "") + error.what());
-    }
-    const AcceptedCase* const accepted = suite_.AcceptedOf(found_);
+  CaseVerdict Run() {
+    const AcceptedCase* const accepted = suite_.AcceptedOf(verdict_.name);
     if (accepted == nullptr) {
       WriteDrawing();
       return NotCompared(
           fmt::format("{}: not accepted yet; look at {}, then run `kinescope golden accept {} {}`",
-                      verdict_.file.string(), NewPictureOf(settings_.out, found_.name).string(),
-                      settings_.out.string(), found_.name));
+                      verdict_.file.string(), NewPictureOf(settings_.out, verdict_.name).string(),
+                      settings_.out.string(), verdict_.name));
     }
     Compare(*accepted);
     return std::move(verdict_);
@@ -103,9 +110,9 @@ class CaseCheck {
       difference_ = render::FindDifference(*picture, drawing_.image);
     }
     const render::Image difference = render::HeatMap(*picture, difference_);
-    render::WritePng(DifferenceOf(settings_.out, found_.name), difference);
+    render::WritePng(DifferenceOf(settings_.out, verdict_.name), difference);
     if (picture->width != now.width || picture->height != now.height) return;
-    render::WritePng(CompositeOf(settings_.out, found_.name),
+    render::WritePng(CompositeOf(settings_.out, verdict_.name),
                      Composite(verdict_, *picture, drawing_.image, difference));
   }
 
@@ -177,7 +184,7 @@ class CaseCheck {
 
   // nullopt: it is not there, or not what golden.lock says; then that is noted or found.
   std::optional<render::Image> ReadAccepted(const AcceptedCase& accepted) {
-    const fs::path path = suite_.PictureOf(found_);
+    const fs::path path = suite_.PictureOf(verdict_.name);
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
       verdict_.notes.push_back(path.string() + ": not here; compared by golden.lock alone");
@@ -312,7 +319,7 @@ class CaseCheck {
 
   void WriteDrawing() {
     fs::create_directories(settings_.out);
-    const fs::path path = NewPictureOf(settings_.out, found_.name);
+    const fs::path path = NewPictureOf(settings_.out, verdict_.name);
     render::WritePng(path, drawing_.image);
     verdict_.now->file_sha256 = DigestOf(path).sha256;
   }
@@ -320,11 +327,46 @@ class CaseCheck {
   const GoldenSuite& suite_;
   const FoundCase& found_;
   const CheckSettings& settings_;
-  const std::map<std::string, std::string>& environment_;
-  GoldenDrawing drawing_;
+  const GoldenDrawing drawing_;
   render::PictureDifference difference_;
   CaseVerdict verdict_;
 };
+
+std::vector<CaseVerdict> NotDrawn(const GoldenSuite& suite, const FoundCase& found,
+                                  const std::vector<CaseVerdict>& drawn) {
+  std::vector<CaseVerdict> verdicts;
+  for (const std::string& name : suite.AcceptedPicturesOf(found)) {
+    const bool is_drawn = std::any_of(drawn.begin(), drawn.end(),
+                                      [&](const CaseVerdict& each) { return each.name == name; });
+    if (is_drawn) continue;
+    CaseVerdict verdict = VerdictOf(suite, found, std::nullopt);
+    verdict.name = name;
+    verdict.outcome = Outcome::kDiffers;
+    verdict.accepted_pixels = suite.AcceptedOf(name)->pixels_sha256;
+    verdict.findings = {
+        {FindingKind::kPicture, kWholePicture, "", "", 0,
+         fmt::format("is accepted, but the case does not draw it any more; run `kinescope golden "
+                     "update {} {}`, which removes it",
+                     suite.folder.string(), found.name)}};
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+// What a person asks of a clip: when does it begin to differ?
+void NoteFirstDifference(std::vector<CaseVerdict>& verdicts) {
+  const auto differs = [](const CaseVerdict& verdict) {
+    return verdict.frame && verdict.outcome != Outcome::kSame;
+  };
+  const auto first = std::find_if(verdicts.begin(), verdicts.end(), differs);
+  if (first == verdicts.end()) return;
+  first->notes.insert(
+      first->notes.begin(),
+      fmt::format("the clip begins to differ in {}; {} of {} compared pictures are not the same",
+                  ToText(*first->frame), std::count_if(first, verdicts.end(), differs),
+                  std::count_if(verdicts.begin(), verdicts.end(),
+                                [](const CaseVerdict& each) { return each.frame.has_value(); })));
+}
 
 CaseVerdict OfNoCase(const std::string& name, const fs::path& file, const std::string& way_out) {
   CaseVerdict verdict;
@@ -368,11 +410,40 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
 
 std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
                                    const CheckSettings& settings, render::Renderer& renderer) {
+  std::vector<CaseVerdict> verdicts;
+  Clock::time_point begin = Clock::now();
+  const auto add = [&](CaseVerdict verdict) {
+    verdict.secs = std::chrono::duration<double>(Clock::now() - begin).count();
+    begin = Clock::now();
+    verdicts.push_back(std::move(verdict));
+  };
+  const auto not_compared = [&](std::string reason) {
+    CaseVerdict verdict = VerdictOf(suite, found, std::nullopt);
+    verdict.outcome = Outcome::kNotCompared;
+    verdict.reason = std::move(reason);
+    return verdict;
+  };
+  if (!found.read) return {not_compared(found.error)};
   const auto environment = EnvironmentOf(renderer.info());
-  const Clock::time_point begin = Clock::now();
-  CaseVerdict verdict = CaseCheck(suite, found, settings, environment).Run(renderer);
-  verdict.secs = std::chrono::duration<double>(Clock::now() - begin).count();
-  return {verdict};
+  std::exception_ptr cannot_write;  // which is no fault of the case
+  try {
+    Draw(*found.read, renderer, [&](GoldenDrawing drawing) {
+      PictureCheck check(suite, found, settings, environment, std::move(drawing));
+      try {
+        add(check.Run());
+      } catch (...) {
+        cannot_write = std::current_exception();
+        throw;
+      }
+    });
+  } catch (const std::exception& error) {
+    if (cannot_write) std::rethrow_exception(cannot_write);
+    add(not_compared(suite.CaseFileOf(found).string() + ": " + error.what()));
+    return verdicts;
+  }
+  for (CaseVerdict& missing : NotDrawn(suite, found, verdicts)) add(std::move(missing));
+  if (found.read->seconds) NoteFirstDifference(verdicts);
+  return verdicts;
 }
 
 std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite) {

@@ -18,7 +18,8 @@ struct CheckSettings {
   bool is_strict = false;     // only equal bytes are the same
 };
 
-/// Draws a case and compares it. @throws std::runtime_error if a picture cannot be written.
+/// Draws a case and compares it: one verdict, or of a clip one for each picture, and for each that
+/// is accepted and not drawn. @throws std::runtime_error if a picture cannot be written.
 std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
                                    const CheckSettings& settings, render::Renderer& renderer);
 

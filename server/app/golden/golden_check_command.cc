@@ -64,7 +64,8 @@ JobSettings JobsOf(const CheckOptions& options, std::size_t cases) {
 void PrintVerdict(const CaseVerdict& verdict) {
   const char* const how =
       verdict.outcome == Outcome::kSame && !verdict.is_byte_equal ? " (within the limits)" : "";
-  Print("{:<24} {}{}\n", verdict.name, LoudName(verdict.outcome), how);
+  const std::string frame = verdict.frame ? ", " + ToText(*verdict.frame) : "";
+  Print("{:<24} {}{}{}\n", verdict.name, LoudName(verdict.outcome), how, frame);
   if (verdict.outcome != Outcome::kSame && !verdict.why.empty()) {
     Print("  purpose: {}\n", verdict.why);
   }

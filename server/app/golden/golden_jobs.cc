@@ -123,7 +123,7 @@ class Jobs {
     if (found.read) verdict.why = *found.read->why;
     verdict.outcome = Outcome::kNotCompared;
     verdict.reason = verdict.file.string() + ": " + reason;
-    if (const AcceptedCase* const accepted = suite_.AcceptedOf(found)) {
+    if (const AcceptedCase* const accepted = suite_.AcceptedOf(found.name)) {
       verdict.accepted_pixels = accepted->pixels_sha256;
     }
     Finish(worker, {verdict});

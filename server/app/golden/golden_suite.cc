@@ -47,8 +47,8 @@ std::string NotThere(const fs::path& folder, const std::string& name,
 
 }  // namespace
 
-fs::path GoldenSuite::PictureOf(const FoundCase& found) const {
-  return folder / (found.name + kPicture);
+fs::path GoldenSuite::PictureOf(const std::string& picture) const {
+  return folder / (picture + kPicture);
 }
 
 fs::path GoldenSuite::CaseFileOf(const FoundCase& found) const {
@@ -57,9 +57,17 @@ fs::path GoldenSuite::CaseFileOf(const FoundCase& found) const {
 
 fs::path GoldenSuite::lock_file() const { return folder / "golden.lock"; }
 
-const AcceptedCase* GoldenSuite::AcceptedOf(const FoundCase& found) const {
-  const auto accepted = lock.find(found.name);
+const AcceptedCase* GoldenSuite::AcceptedOf(const std::string& picture) const {
+  const auto accepted = lock.find(picture);
   return accepted == lock.end() ? nullptr : &accepted->second;
+}
+
+std::vector<std::string> GoldenSuite::AcceptedPicturesOf(const FoundCase& found) const {
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : lock) {
+    if (CaseNameOf(name) == found.name) names.push_back(name);
+  }
+  return names;
 }
 
 GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::string>& names) {
@@ -82,20 +90,24 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   GoldenSuite suite;
   suite.folder = folder;
   suite.lock = ReadLock(suite.lock_file());
+  std::set<std::string> chosen;
   for (const std::string& name : names) {
-    if (known.count(name) == 0) throw UsageError(NotThere(folder, name, known));
+    const std::string case_name = CaseNameOf(name);
+    if (known.count(case_name) == 0) throw UsageError(NotThere(folder, name, known));
+    chosen.insert(case_name);
   }
-  const std::set<std::string> chosen =
-      names.empty() ? known : std::set<std::string>(names.begin(), names.end());
+  if (names.empty()) chosen = known;
   for (const std::string& name : chosen) suite.cases.push_back(Read(folder / (name + kCase)));
   if (!names.empty()) return suite;  // of the others nothing is known
   for (const auto& [name, ignored] : suite.lock) {
-    if (known.count(name) == 0) suite.unknown_locks.push_back(name);
+    if (known.count(CaseNameOf(name)) == 0) suite.unknown_locks.push_back(name);
   }
   std::sort(accepted.begin(), accepted.end());
   for (fs::path& file : accepted) {
     const auto name = NameBefore(kPicture, file);
-    if (!name || known.count(*name) == 0) suite.orphans.push_back(std::move(file));
+    const bool has_case = name && known.count(CaseNameOf(*name)) > 0 &&
+                          (CaseNameOf(*name) == *name || suite.lock.count(*name) > 0);
+    if (!has_case) suite.orphans.push_back(std::move(file));
   }
   return suite;
 }

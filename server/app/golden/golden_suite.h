@@ -25,14 +25,18 @@ struct GoldenSuite {
   GoldenLock lock;
   std::vector<std::string> unknown_locks;  // names in `lock` that no case has
 
-  std::filesystem::path PictureOf(const FoundCase& found) const;
+  /// @param picture  its name (golden_frame.h)
+  std::filesystem::path PictureOf(const std::string& picture) const;
   std::filesystem::path CaseFileOf(const FoundCase& found) const;
   std::filesystem::path lock_file() const;
-  /// What is accepted of the case; nullptr: nothing yet.
-  const AcceptedCase* AcceptedOf(const FoundCase& found) const;
+  /// What is accepted of a picture; nullptr: nothing yet.
+  const AcceptedCase* AcceptedOf(const std::string& picture) const;
+  /// The names of the pictures that are accepted of a case.
+  std::vector<std::string> AcceptedPicturesOf(const FoundCase& found) const;
 };
 
-/// Those cases of `folder` that are named; all of them, and the orphans, if none is.
+/// Those cases of `folder` that are named, or whose pictures are; all of them, and the orphans, if
+/// none is.
 /// @throws UsageError if the folder cannot be read, has no case, or not one that is named;
 /// std::runtime_error if `golden.lock` cannot be read.
 GoldenSuite FindGoldenSuite(const std::filesystem::path& folder,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -28,7 +29,8 @@ bool ShowsNothing(const render::Image& image) {
 }
 
 /// @throws std::runtime_error why the drawing must not be accepted.
-void CheckDrawing(const GoldenDrawing& drawing) {
+void CheckDrawing(const GoldenCase& golden_case, const GoldenDrawing& drawing) {
+  CheckMasks(*golden_case.masks, drawing.image.width, drawing.image.height);
   if (ShowsNothing(drawing.image)) throw std::runtime_error("the picture is of one colour");
   const auto wrong = render::FindSphereMismatches(drawing.image, drawing.spheres);
   if (wrong.empty()) return;
@@ -62,14 +64,15 @@ bool IsThere(const fs::path& picture, const std::string& pixels_sha256) {
 // What was written; "unchanged" if nothing was.
 std::string Accept(GoldenSuite& suite, const FoundCase& found, const GoldenDrawing& drawing,
                    const std::map<std::string, std::string>& environment) {
+  const std::string name = PictureName(found.name, drawing.frame);
   AcceptedCase now = Describe(*found.read, drawing, environment);
-  const AcceptedCase* const before = suite.AcceptedOf(found);
+  const AcceptedCase* const before = suite.AcceptedOf(name);
   const std::string words = WordsFor(before, now);
-  const fs::path picture = suite.PictureOf(found);
+  const fs::path picture = suite.PictureOf(name);
   const bool is_there = IsThere(picture, now.pixels_sha256);
   if (!is_there) render::WritePng(picture, drawing.image);
   now.file_sha256 = DigestOf(picture).sha256;
-  suite.lock[found.name] = std::move(now);
+  suite.lock[name] = std::move(now);
   if (before == nullptr) return "accepted for the first time; check the picture";
   if (!words.empty()) return "accepted: " + words + "; check the picture";
   return is_there ? "unchanged" : "the picture was missing or damaged and is written again";
@@ -97,17 +100,25 @@ int UpdateSuite(GoldenSuite suite, render::Renderer& renderer) {
   bool is_complete = true;
   for (const FoundCase& found : suite.cases) {
     if (StopRequested()) throw std::runtime_error("interrupted; nothing is accepted");
-    std::optional<GoldenDrawing> drawing;
+    std::vector<std::string> left = suite.AcceptedPicturesOf(found);
     try {
       if (!found.read) throw std::runtime_error(found.error);
-      drawing = Draw(*found.read, renderer);
-      CheckDrawing(*drawing);
+      Draw(*found.read, renderer, [&](const GoldenDrawing& drawing) {
+        CheckDrawing(*found.read, drawing);
+        const std::string name = PictureName(found.name, drawing.frame);
+        Print("{:<24} {}\n", name, Accept(suite, found, drawing, environment));
+        left.erase(std::remove(left.begin(), left.end(), name), left.end());
+      });
     } catch (const std::exception& error) {
       is_complete = false;
       Print("{:<24} NOT ACCEPTED\n  {}\n", found.name, error.what());
       continue;
     }
-    Print("{:<24} {}\n", found.name, Accept(suite, found, *drawing, environment));
+    for (const std::string& name : left) {
+      suite.lock.erase(name);
+      fs::remove(suite.PictureOf(name));
+      Print("{:<24} removed: the case does not draw it any more\n", name);
+    }
   }
   for (const std::string& name : suite.unknown_locks) {
     suite.lock.erase(name);

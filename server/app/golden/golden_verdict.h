@@ -11,6 +11,7 @@
 #include "render/image/tile.h"
 #include "server/app/golden/finding.h"
 #include "server/app/golden/golden_changes.h"
+#include "server/app/golden/golden_frame.h"
 #include "server/app/golden/golden_lock.h"
 
 namespace kinescope::app {
@@ -34,8 +35,9 @@ struct GoldenLayer {
 };
 
 struct CaseVerdict {
-  std::string name;  // of the case, or of a file that belongs to none
-  std::string why;   // purpose of the case
+  std::string name;                  // of the picture, or of a file that belongs to no case
+  std::optional<GoldenFrame> frame;  // of a clip
+  std::string why;                   // purpose of the case
   std::filesystem::path file;
   int line = 1;  // of the file: the key that explains it best
   Outcome outcome = Outcome::kSame;

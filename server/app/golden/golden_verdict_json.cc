@@ -66,6 +66,17 @@ Json PathIfThere(const fs::path& path) {
   return fs::exists(path, ignored) ? Json(path.string()) : Json(nullptr);
 }
 
+Json FrameJson(const std::optional<GoldenFrame>& frame) {
+  if (!frame) return nullptr;
+  return {{"number", frame->number}, {"seconds", frame->secs}};
+}
+
+std::optional<GoldenFrame> FrameFrom(const json& frame) {
+  if (frame.is_null()) return std::nullopt;
+  return GoldenFrame{static_cast<long>(CountFrom(frame.at("number"), kMostLines)),
+                     frame.at("seconds").get<double>()};
+}
+
 Outcome OutcomeNamed(const std::string& name) {
   for (const Outcome outcome : {Outcome::kSame, Outcome::kDiffers, Outcome::kNotCompared}) {
     if (name == Name(outcome)) return outcome;
@@ -78,6 +89,7 @@ Outcome OutcomeNamed(const std::string& name) {
 
 Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
   Json line = {{"case", verdict.name},
+               {"frame", FrameJson(verdict.frame)},
                {"why", verdict.why},
                {"file", verdict.file.string()},
                {"line", verdict.line},
@@ -117,6 +129,7 @@ Json ToWholeJson(const CaseVerdict& verdict, const fs::path& out) {
 CaseVerdict VerdictFrom(const json& line) {
   CaseVerdict verdict;
   verdict.name = line.at("case");
+  verdict.frame = FrameFrom(line.at("frame"));
   verdict.why = line.at("why");
   verdict.file = line.at("file").get<std::string>();
   verdict.line = static_cast<int>(CountFrom(line.at("line"), kMostLines));

@@ -52,7 +52,7 @@ TEST_F(GoldenCaseFile, RejectsATimeThatTheBuiltInSubjectReachesTooLate) {
   const GoldenCase golden_case = Load("source: demo:lift\ntime: 864000\nsize: 16x16\n");
   kinescope::testing::FakeRenderer renderer;
   try {
-    Draw(golden_case, renderer);
+    Draw(golden_case, renderer, [](const GoldenDrawing&) {});
     ADD_FAILURE() << "it was drawn";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("golden case case: time: 864000: demo:lift is generated "
@@ -72,7 +72,7 @@ TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
       [&](const auto&, const SceneState& state, const auto&, const auto&) {
         is_measured = state.people.at(0).forces.hands[urdf::kLeft].is_measured;
       });
-  Draw(golden_case, renderer);
+  Draw(golden_case, renderer, [](const GoldenDrawing&) {});
   EXPECT_TRUE(is_measured);
 }
 
@@ -111,7 +111,7 @@ TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
         ASSERT_EQ(view.look.ghosts.size(), 1u);
         EXPECT_EQ(view.look.ghosts[0].person.model->human.mesh_folder, "");
       });
-  Draw(golden_case, renderer);
+  Draw(golden_case, renderer, [](const GoldenDrawing&) {});
   EXPECT_EQ(drawn, 1);
 }
 
