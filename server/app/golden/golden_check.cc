@@ -238,8 +238,13 @@ class PictureCheck {
     }
     NoteTolerances();
     if (settings_.is_strict) {
-      Add(FindingKind::kPixels, fmt::format("not byte-equal: the largest difference is {} levels",
-                                            difference_.levels.largest_difference));
+      const int levels = difference_.levels.largest_difference;
+      Add(FindingKind::kPixels,
+          fmt::format("not byte-equal: the largest difference is {}{}",
+                      Counted(static_cast<std::uint64_t>(levels), "level"),
+                      levels <= render::kChannelTolerance ? "; processors of another make differ "
+                                                            "by as much"
+                                                          : ""));
     }
   }
 
