@@ -11,6 +11,10 @@
 namespace kinescope::app {
 namespace {
 
+constexpr std::array<const char*, 14> kKindNames = {
+    "picture", "class",  "missing", "new",     "text",  "input",     "load",
+    "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
+
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding
 constexpr double kMetresLimit = 0.002, kDegreesLimit = 0.05;
@@ -202,9 +206,11 @@ constexpr std::size_t kMany = 5;  // objects, which are then told together
 
 bool IsOfPicture(const GoldenFinding& finding) { return finding.object == kWholePicture; }
 
+// Without the object. Findings may come from a file: their text may be anything.
 std::string ClauseOf(const GoldenFinding& finding) {
   const std::size_t prefix = finding.object.size() + 2;
-  return IsOfPicture(finding) ? finding.text : finding.text.substr(prefix);
+  const bool is_whole = IsOfPicture(finding) || finding.text.size() < prefix;
+  return is_whole ? finding.text : finding.text.substr(prefix);
 }
 
 // "right_knee, l5_s1 and 6 more".
@@ -271,11 +277,12 @@ bool CanBeToldTogether(FindingKind kind) {
 
 }  // namespace
 
-const char* Name(FindingKind kind) {
-  constexpr std::array<const char*, 14> kNames = {
-      "picture", "class",  "missing", "new",     "text",  "input",     "load",
-      "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
-  return kNames.at(static_cast<std::size_t>(kind));
+const char* Name(FindingKind kind) { return kKindNames.at(static_cast<std::size_t>(kind)); }
+
+std::optional<FindingKind> FindingKindFrom(const std::string& name) {
+  const auto* const found = std::find(kKindNames.begin(), kKindNames.end(), name);
+  if (found == kKindNames.end()) return std::nullopt;
+  return static_cast<FindingKind>(found - kKindNames.begin());
 }
 
 void SortWorstFirst(std::vector<GoldenFinding>& findings) {

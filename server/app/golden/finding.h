@@ -29,6 +29,8 @@ enum class FindingKind {
 
 /// "class", "missing", ...: as in JSON.
 const char* Name(FindingKind kind);
+/// nullopt: no kind has this name.
+std::optional<FindingKind> FindingKindFrom(const std::string& name);
 
 struct GoldenFinding {
   FindingKind kind = FindingKind::kPixels;

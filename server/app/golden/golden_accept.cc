@@ -14,8 +14,6 @@
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_check.h"
-#include "server/app/golden/golden_run.h"
-#include "server/app/golden/golden_suite.h"
 #include "server/app/print.h"
 
 namespace kinescope::app {
@@ -23,20 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<const CaseOfRun*> Chosen(const GoldenRun& run, const std::vector<std::string>& names) {
-  std::vector<const CaseOfRun*> chosen;
+std::vector<const CaseVerdict*> Chosen(const GoldenRun& run,
+                                       const std::vector<std::string>& names) {
+  std::vector<const CaseVerdict*> chosen;
   if (names.empty()) {
-    for (const CaseOfRun& each : run.cases) {
-      if (!each.is_same && each.now) chosen.push_back(&each);
+    for (const CaseVerdict& each : run.verdicts) {
+      if (each.outcome != Outcome::kSame && each.now) chosen.push_back(&each);
     }
     return chosen;
   }
   std::vector<std::string> known;
-  for (const CaseOfRun& each : run.cases) known.push_back(each.name);
+  for (const CaseVerdict& each : run.verdicts) known.push_back(each.name);
   for (const std::string& name : names) {
-    const auto found = std::find_if(run.cases.begin(), run.cases.end(),
-                                    [&](const CaseOfRun& each) { return each.name == name; });
-    if (found == run.cases.end()) {
+    const auto found = std::find_if(run.verdicts.begin(), run.verdicts.end(),
+                                    [&](const CaseVerdict& each) { return each.name == name; });
+    if (found == run.verdicts.end()) {
       throw UsageError(fmt::format("the run has no case '{}'{}", name, SuggestionFor(name, known)));
     }
     chosen.push_back(&*found);
@@ -50,7 +49,7 @@ class Accepting {
       : settings_(settings), suite_(suite) {}
 
   /// @throws std::runtime_error why it is not taken.
-  void Take(const CaseOfRun& drawn) {
+  void Take(const CaseVerdict& drawn) {
     if (!drawn.now) throw std::runtime_error("was not drawn; `golden check` says why");
     const auto found = std::find_if(suite_.cases.begin(), suite_.cases.end(),
                                     [&](const FoundCase& each) { return each.name == drawn.name; });
@@ -63,7 +62,7 @@ class Accepting {
   }
 
  private:
-  void CheckCase(const FoundCase& found, const CaseOfRun& drawn) const {
+  void CheckCase(const FoundCase& found, const CaseVerdict& drawn) const {
     AcceptedCase here = *drawn.now;
     here.options = found.read->given;
     here.inputs = InputsOf(*found.read);
@@ -88,7 +87,7 @@ class Accepting {
   }
 
   // As the others of the suite have it.
-  void CheckEnvironment(const CaseOfRun& drawn) const {
+  void CheckEnvironment(const CaseVerdict& drawn) const {
     if (settings_.takes_other_environment) return;
     for (const auto& [name, accepted] : suite_.lock) {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
@@ -100,7 +99,7 @@ class Accepting {
     }
   }
 
-  void CopyPicture(const FoundCase& found, const CaseOfRun& drawn) const {
+  void CopyPicture(const FoundCase& found, const CaseVerdict& drawn) const {
     const fs::path from = NewPictureOf(settings_.run, drawn.name);
     if (PixelsHash(render::ReadPng(from)) != drawn.now->pixels_sha256 ||
         DigestOf(from).sha256 != drawn.now->file_sha256) {
@@ -117,6 +116,14 @@ class Accepting {
 
 }  // namespace
 
+GoldenSuite SuiteFor(const GoldenRun& run, const AcceptSettings& settings) {
+  return FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
+}
+
+void TakeCase(const CaseVerdict& drawn, const AcceptSettings& settings, GoldenSuite& suite) {
+  Accepting(settings, suite).Take(drawn);
+}
+
 int AcceptRun(const AcceptSettings& settings) {
   const GoldenRun run = ReadRun(settings.run);
   const auto chosen = Chosen(run, settings.names);
@@ -124,13 +131,11 @@ int AcceptRun(const AcceptSettings& settings) {
     Print("The run has nothing to accept: every case that was drawn is the same\n");
     return 0;
   }
-  GoldenSuite suite =
-      FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
-  Accepting accepting(settings, suite);
+  GoldenSuite suite = SuiteFor(run, settings);
   std::size_t taken = 0;
-  for (const CaseOfRun* each : chosen) {
+  for (const CaseVerdict* each : chosen) {
     try {
-      accepting.Take(*each);
+      TakeCase(*each, settings, suite);
       ++taken;
       Print("{:<24} accepted\n", each->name);
     } catch (const std::exception& error) {

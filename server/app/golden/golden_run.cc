@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
@@ -25,6 +27,10 @@ Json ToJson(const GoldenFinding& finding) {
   if (!finding.expected.empty()) line["expected"] = finding.expected;
   if (!finding.actual.empty()) line["found"] = finding.actual;
   if (finding.amount != 0) line["amount"] = finding.amount;
+  if (finding.x_px && finding.y_px) {
+    line["x"] = *finding.x_px;
+    line["y"] = *finding.y_px;
+  }
   line["text"] = finding.text;
   return line;
 }
@@ -34,13 +40,72 @@ Json PathIfThere(const fs::path& path) {
   return fs::exists(path, ignored) ? Json(path.string()) : Json(nullptr);
 }
 
-CaseOfRun CaseFrom(const json& line) {
-  CaseOfRun read;
+// Pictures are looked for under this name: "../bend" would be one of another folder.
+bool IsFileName(const std::string& name) {
+  return !name.empty() && name.find_first_of(std::string_view("/\0", 2)) == std::string::npos;
+}
+
+Outcome OutcomeFrom(const std::string& name) {
+  for (const Outcome outcome : {Outcome::kSame, Outcome::kDiffers, Outcome::kNotCompared}) {
+    if (name == Name(outcome)) return outcome;
+  }
+  throw std::runtime_error(
+      fmt::format("outcome '{}'; expected same, differs or not compared", name));
+}
+
+GoldenFinding FindingFrom(const json& line) {
+  GoldenFinding finding;
+  const std::string kind = line.at("kind");
+  const auto known = FindingKindFrom(kind);
+  if (!known) throw std::runtime_error(fmt::format("finding of an unknown kind '{}'", kind));
+  finding.kind = *known;
+  finding.object = line.at("object");
+  finding.expected = line.value("expected", "");
+  finding.actual = line.value("found", "");
+  finding.amount = line.value("amount", 0.0);
+  finding.text = line.at("text");
+  if (!line.contains("x")) return finding;
+  finding.x_px = line.at("x").get<double>();
+  finding.y_px = line.at("y").get<double>();
+  return finding;
+}
+
+CaseVerdict VerdictFrom(const json& line) {
+  CaseVerdict read;
   read.name = line.at("case");
-  read.is_same = line.at("outcome") == Name(Outcome::kSame);
+  read.why = line.at("why");
+  read.file = line.at("file").get<std::string>();
+  read.outcome = OutcomeFrom(line.at("outcome"));
+  read.reason = line.at("reason");
+  read.notes = line.at("notes").get<std::vector<std::string>>();
+  read.is_byte_equal = line.at("byte_equal");
+  read.secs = line.at("seconds");
+  for (const json& each : line.at("findings")) read.findings.push_back(FindingFrom(each));
+  for (const json& each : line.at("layers")) {
+    read.layers.push_back({each.at("name"), each.at("found"), each.at("passes")});
+  }
+  const json& changes = line.at("changes");
+  changes.at("case").get_to(read.changes.options);
+  changes.at("inputs").get_to(read.changes.inputs);
+  changes.at("environment").get_to(read.changes.environment);
   read.accepted_pixels = line.at("accepted_pixels");
   if (!line.at("now").is_null()) read.now = AcceptedFrom(line.at("now"));
   return read;
+}
+
+// Of those that were drawn, which have pictures.
+void CheckNames(const std::vector<CaseVerdict>& verdicts) {
+  std::set<std::string> names;
+  for (const CaseVerdict& verdict : verdicts) {
+    if (!verdict.now) continue;
+    if (!IsFileName(verdict.name)) {
+      throw std::runtime_error(
+          fmt::format("case '{}'; expected the name of a file, without a folder", verdict.name));
+    }
+    if (!names.insert(verdict.name).second) {
+      throw std::runtime_error(fmt::format("case '{}' is there twice", verdict.name));
+    }
+  }
 }
 
 }  // namespace
@@ -53,6 +118,8 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
                {"same", verdict.outcome == Outcome::kSame},
                {"byte_equal", verdict.is_byte_equal},
                {"problems", Explain(verdict)},
+               {"reason", verdict.reason},
+               {"notes", verdict.notes},
                {"seconds", verdict.secs}};
   line["findings"] = Json::array();
   for (const GoldenFinding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
@@ -113,7 +180,9 @@ GoldenRun ParseRun(const std::string& text) {
   }
   GoldenRun run;
   run.folder = document.at("folder").get<std::string>();
-  for (const auto& line : document.at("cases")) run.cases.push_back(CaseFrom(line));
+  run.version = document.at("kinescope");
+  for (const json& line : document.at("cases")) run.verdicts.push_back(VerdictFrom(line));
+  CheckNames(run.verdicts);
   return run;
 }
 

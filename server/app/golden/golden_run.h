@@ -1,11 +1,11 @@
 /// The folder that a check leaves: new pictures, and `run.json` with the verdicts, hashes of inputs
-/// and environment, from which pictures are accepted on another machine. Pure but for files; one
+/// and environment, from which pictures are accepted on another machine. A run may come from a
+/// stranger: what is read is what a check can have written, and no more. Pure but for files; one
 /// thread.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +25,12 @@ void ClearRun(const std::filesystem::path& out);
 void WriteRun(const std::filesystem::path& out, const std::filesystem::path& folder,
               const std::vector<CaseVerdict>& verdicts);
 
-struct CaseOfRun {
-  std::string name;
-  bool is_same = false;
-  std::string accepted_pixels;      // SHA-256 that was compared with; "": nothing was accepted
-  std::optional<AcceptedCase> now;  // nullopt: it was not drawn
-};
-
 struct GoldenRun {
   std::filesystem::path folder;  // of the cases, as the run was given it
-  std::vector<CaseOfRun> cases;
+  std::string version;           // of the program that has drawn
+  /// Without CaseVerdict::line. The names of those that were drawn are names of files without a
+  /// folder, and each is there once.
+  std::vector<CaseVerdict> verdicts;
 };
 
 /// The content of `run.json`. @throws std::exception with the reason.

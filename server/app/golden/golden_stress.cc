@@ -68,7 +68,7 @@ class Stress {
   }
 
  private:
-  using Drawn = std::map<std::string, CaseOfRun>;
+  using Drawn = std::map<std::string, CaseVerdict>;
 
   // In a process of its own, whose environment is another one.
   Drawn Draw(std::vector<std::string> command) {
@@ -87,7 +87,7 @@ class Stress {
                                    : fmt::format("drawing ended with signal {}", child.signal));
     }
     Drawn drawn;
-    for (CaseOfRun& each : ReadRun(out).cases) {
+    for (CaseVerdict& each : ReadRun(out).verdicts) {
       if (!each.now) SetExitCode(2);
       drawn[each.name] = std::move(each);
     }
