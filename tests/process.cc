@@ -9,6 +9,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace kinescope::testing {
 namespace {
@@ -47,12 +48,20 @@ Process::Process(const std::vector<std::string>& command) {
 Process::~Process() {
   Signal(SIGCONT);
   Signal(SIGKILL);
-  waitpid(pid_, nullptr, 0);
+  if (pid_ > 0) waitpid(pid_, nullptr, 0);
   close(to_child_);
   close(from_child_);
 }
 
-void Process::Signal(int number) const { kill(pid_, number); }
+void Process::Signal(int number) const {
+  if (pid_ > 0) kill(pid_, number);
+}
+
+int Process::WaitForEnd() {
+  int status = 0;
+  if (waitpid(std::exchange(pid_, -1), &status, 0) < 0) throw std::runtime_error("it has ended");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 
 void Process::WriteLine(const std::string& line) const {
   const std::string text = line + "\n";

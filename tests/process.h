@@ -24,9 +24,11 @@ class Process {
   void WriteLine(const std::string& line) const;
   /// Its next line, waiting up to `timeout`; nullopt without one, or if the process has ended.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
+  /// Waits for its end: the exit code, 128 + n when signal n ended it.
+  int WaitForEnd();
 
  private:
-  pid_t pid_ = -1;
+  pid_t pid_ = -1;  // -1: it has ended
   int to_child_ = -1;
   int from_child_ = -1;
   std::string unread_;

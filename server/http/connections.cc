@@ -22,6 +22,13 @@ std::size_t Connections::CountOf(const std::string& address) const {
                     [&](const Connection* connection) { return connection->address == address; }));
 }
 
+std::size_t Connections::CountBusy() const {
+  return static_cast<std::size_t>(
+      std::count_if(open_.begin(), open_.end(), [](const Connection* connection) {
+        return connection->phase != Connection::Phase::kWaiting;
+      }));
+}
+
 // Without the token first, then of the address with the most connections unless these are few, then
 // those without progress, then the oldest. Connections with and without the token are counted
 // separately: those of a whole office must not spoil its next one.

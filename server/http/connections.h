@@ -46,6 +46,8 @@ class Connections {
   void Add(Connection& connection) { open_.push_back(&connection); }
   void Remove(const Connection& connection);  // does nothing for one that was closed
   [[nodiscard]] std::size_t size() const { return open_.size(); }
+  /// Those whose answer is made or sent.
+  [[nodiscard]] std::size_t CountBusy() const;
 
  private:
   [[nodiscard]] std::size_t CountOf(const std::string& address) const;

@@ -244,8 +244,10 @@ void HttpSession::Respond() {
     ++shared_.counters->rejected["no TLS"];
     return Send(AnswerWithoutTls(request_));
   }
-  if (beast::websocket::is_upgrade(parser_->get())) return BecomeWebSocket();
-  Answer answer = shared_.router->Route(request_);
+  if (shared_.router != nullptr && beast::websocket::is_upgrade(parser_->get())) {
+    return BecomeWebSocket();
+  }
+  Answer answer = shared_.route(request_);
   connection_.has_token = answer.to_token_holder;
   if (answer.needs_body) return ReadBody();
   if (answer.snapshot) return Draw(std::move(answer));

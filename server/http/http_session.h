@@ -1,7 +1,7 @@
-/// Serves one HTTP connection, with TLS if the server has a certificate: reads requests, sends the
-/// answers of the router, and becomes a WebSocket on request. A request is judged by its header;
-/// its body is read only if the answer depends on it. Incoming data take at most the size of a
-/// header and a body. Server's thread only.
+/// Serves one HTTP connection, with TLS if the server has a certificate: reads requests, sends
+/// their answers, and becomes a WebSocket on request. A request is judged by its header; its body
+/// is read only if the answer depends on it. Incoming data take at most the size of a header and a
+/// body. Server's thread only.
 #pragma once
 
 #include <atomic>
@@ -11,6 +11,7 @@
 #include <boost/beast/http/string_body.hpp>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +33,8 @@ namespace kinescope::http {
 
 /// Objects shared by all connections; they outlive the connections.
 struct Shared {
-  const Router* router = nullptr;
+  std::function<Answer(const Request&)> route;  // of a request that asks for no WebSocket
+  const Router* router = nullptr;               // null: there are no WebSockets, so no hub
   Hub* hub = nullptr;
   Counters* counters = nullptr;
   SnapshotWorker* snapshots = nullptr;  // null: no renderer

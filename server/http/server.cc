@@ -75,7 +75,8 @@ void CheckConfig(const HttpConfig& config) {
         ": not an IP address; use 127.0.0.1 for this machine or 0.0.0.0 for the network");
   }
   if (config.port < 0 || config.port > 65535) {
-    throw UsageError("--http_port=" + std::to_string(config.port) + ": expected 0 to 65535");
+    throw UsageError(config.port_origin + "=" + std::to_string(config.port) +
+                     ": expected 0 to 65535");
   }
   if (!address.is_loopback() && config.token.empty()) {
     throw UsageError(
@@ -118,7 +119,8 @@ Listener::Listener(const HttpConfig& config) {
   }
   if (error) {
     throw UsageError("cannot serve the page at " + Authority(config.bind_ip, config.port) + ": " +
-                     error.message() + "; choose another port with --http_port (0: a free one)");
+                     error.message() + "; choose another port with " + config.port_origin +
+                     " (0: a free one)");
   }
 }
 
@@ -204,6 +206,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   }
   hub_.SetSurroundings(config.surroundings);
   shared_.router = &*router_;
+  shared_.route = [this](const Request& request) { return router_->Route(request); };
   shared_.hub = &hub_;
   shared_.counters = &counters_;
   shared_.pixels = &pixels_;

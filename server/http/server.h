@@ -108,7 +108,8 @@ struct PatienceLimits {
 
 struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
-  int port = 8080;  // 0: any free port
+  int port = 8080;                          // 0: any free port
+  std::string port_origin = "--http_port";  // where it was set, for messages about it
   /// Required as ?token=, Authorization: Bearer or cookie, unless empty. Its owner is an operator.
   std::string token;
   std::string token_origin = "--token";  // where it was set, for messages about it

@@ -68,8 +68,8 @@ def run(words, folder, timeout=120):
     return None if done.returncode == 0 else f"exit code {done.returncode}: {done.stdout[-500:]}"
 
 
-def run_until(words, folder, line):
-    """Starts the command, waits for `line` in its output, and stops it with SIGTERM."""
+def run_until(words, folder, line, expected=0):
+    """Starts the command, waits for `line` in its output, and stops it with SIGTERM. It ends with the exit code `expected`."""
     with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as child:
         said = ""
         for text in child.stdout:
@@ -77,7 +77,7 @@ def run_until(words, folder, line):
             if line in text:
                 child.terminate()
                 rest = child.communicate(timeout=20)
-                return None if child.returncode == 0 else f"ended with {child.returncode}: {rest[0]}"
+                return None if child.returncode == expected else f"ended with {child.returncode}: {rest[0]}"
         return f"never printed '{line}': {said}"
 
 
@@ -175,9 +175,11 @@ def try_kinescope(words, folder):
         problem = run([PROGRAM, "urdf", "--out", "person.urdf"], folder)
         if problem:
             return problem
-    if "accept" in words:
+    if "accept" in words or "review" in words:
         (pathlib.Path(folder) / "golden_images/lift_bend_right.yaml").open("a").write("mass: 90\n")
         run([PROGRAM, "golden", "check", "golden_images"], folder)
+    if "review" in words:
+        return run_until(words, folder, "http://127.0.0.1:", expected=1)  # nothing is decided
     if words[1:3] == ["golden", "compare"]:
         for backend in ("osmesa", "egl"):
             problem = run([PROGRAM, "render", "demo:lift", "--time", "3", "--size", "320x180", "--backend", backend, "--out",

@@ -12,6 +12,10 @@
 namespace kinescope::app {
 namespace {
 
+constexpr std::array<const char*, 14> kKindNames = {
+    "picture", "class",  "missing", "new",     "text",  "input",     "load",
+    "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
+
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding
 constexpr double kMetresLimit = 0.002, kDegreesLimit = 0.05;
@@ -211,9 +215,11 @@ constexpr std::size_t kMany = 5;  // objects, which are then told together
 
 bool IsOfPicture(const GoldenFinding& finding) { return finding.object == kWholePicture; }
 
+// Without the object. Findings may come from a file: their text may be anything.
 std::string ClauseOf(const GoldenFinding& finding) {
   const std::size_t prefix = finding.object.size() + 2;
-  return IsOfPicture(finding) ? finding.text : finding.text.substr(prefix);
+  const bool is_whole = IsOfPicture(finding) || finding.text.size() < prefix;
+  return is_whole ? finding.text : finding.text.substr(prefix);
 }
 
 // "right_knee, l5_s1 and 6 more".

@@ -14,8 +14,6 @@
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_check.h"
-#include "server/app/golden/golden_run.h"
-#include "server/app/golden/golden_suite.h"
 #include "server/app/print.h"
 
 namespace kinescope::app {
@@ -27,16 +25,16 @@ std::vector<const CaseVerdict*> Chosen(const GoldenRun& run,
                                        const std::vector<std::string>& names) {
   std::vector<const CaseVerdict*> chosen;
   if (names.empty()) {
-    for (const CaseVerdict& each : run.cases) {
+    for (const CaseVerdict& each : run.verdicts) {
       if (each.outcome != Outcome::kSame && each.now) chosen.push_back(&each);
     }
     return chosen;
   }
   std::vector<std::string> known;
-  for (const CaseVerdict& each : run.cases) known.push_back(each.name);
+  for (const CaseVerdict& each : run.verdicts) known.push_back(each.name);
   for (const std::string& name : names) {
     bool is_known = false;
-    for (const CaseVerdict& each : run.cases) {
+    for (const CaseVerdict& each : run.verdicts) {
       is_known = is_known || CaseNameOf(each.name) == CaseNameOf(name);
       const bool is_of_clip = CaseNameOf(each.name) == name && each.outcome != Outcome::kSame;
       if (each.name == name || is_of_clip) chosen.push_back(&each);
@@ -122,6 +120,14 @@ class Accepting {
 
 }  // namespace
 
+GoldenSuite SuiteFor(const GoldenRun& run, const AcceptSettings& settings) {
+  return FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
+}
+
+void TakeCase(const CaseVerdict& drawn, const AcceptSettings& settings, GoldenSuite& suite) {
+  Accepting(settings, suite).Take(drawn);
+}
+
 int AcceptRun(const AcceptSettings& settings) {
   const GoldenRun run = ReadRun(settings.run);
   const auto chosen = Chosen(run, settings.names);
@@ -129,13 +135,11 @@ int AcceptRun(const AcceptSettings& settings) {
     Print("The run has nothing to accept: every case that was drawn is the same\n");
     return 0;
   }
-  GoldenSuite suite =
-      FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
-  Accepting accepting(settings, suite);
+  GoldenSuite suite = SuiteFor(run, settings);
   std::size_t taken = 0;
   for (const CaseVerdict* each : chosen) {
     try {
-      accepting.Take(*each);
+      TakeCase(*each, settings, suite);
       ++taken;
       Print("{:<24} accepted\n", each->name);
     } catch (const std::exception& error) {

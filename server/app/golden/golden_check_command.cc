@@ -75,7 +75,7 @@ void PrintVerdict(const CaseVerdict& verdict) {
 void PrintSummary(const OutcomeCounts& counts, const CheckOptions& options) {
   Print("{}\n", Headline(counts));
   if (counts.ExitCode() == 0) return;
-  Print("Report: {}/report.html; to accept what it shows: kinescope golden accept {} CASE...\n",
+  Print("Report: {}/report.html; to accept what it shows: kinescope golden review {}\n",
         *options.out, *options.out);
 }
 

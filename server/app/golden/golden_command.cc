@@ -15,9 +15,9 @@ Command GoldenCommand() {
   Command command;
   command.name = "golden";
   command.about = "Compares pictures with the accepted ones";
-  command.parts = {GoldenCheckCommand(),  GoldenAcceptCommand(), GoldenUpdateCommand(),
-                   GoldenNewCommand(),    GoldenKeysCommand(),   GoldenListCommand(),
-                   GoldenStressCommand(), GoldenCompareCommand()};
+  command.parts = {GoldenCheckCommand(),  GoldenReviewCommand(), GoldenAcceptCommand(),
+                   GoldenUpdateCommand(), GoldenNewCommand(),    GoldenKeysCommand(),
+                   GoldenListCommand(),   GoldenStressCommand(), GoldenCompareCommand()};
   return command;
 }
 

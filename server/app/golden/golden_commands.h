@@ -20,6 +20,7 @@ struct GoldenCaseOptions {
 
 Command GoldenCheckCommand();
 Command GoldenAcceptCommand();
+Command GoldenReviewCommand();
 Command GoldenUpdateCommand();
 Command GoldenNewCommand();
 Command GoldenKeysCommand();

@@ -43,6 +43,7 @@ std::optional<Tile> WorstPart(const CaseVerdict& verdict) {
   for (const GoldenFinding& finding : verdict.findings) {
     if (!finding.x_px || !finding.y_px || !verdict.now) continue;
     const int whole_width = verdict.now->width, whole_height = verdict.now->height;
+    if (whole_width < 1 || whole_height < 1) return std::nullopt;
     const auto side = [](int whole) {
       return std::max(1, static_cast<int>(std::lround(kPartShare * whole)));
     };

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_composite.h"
 #include "server/app/golden/golden_report_look.h"
+#include "server/app/golden/golden_report_text.h"
 #include "server/app/html.h"
 
 namespace kinescope::app {
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNearShare = 0.3;  // of a picture, that is shown enlarged
+constexpr std::uintmax_t kMostPictureBytes = 64 << 20;
 
 struct Picture {
   std::string id;   // of the element; "": there is none
@@ -24,37 +25,14 @@ struct Picture {
 };
 
 Picture ReadPicture(const fs::path& path, const std::string& id) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) > kMostPictureBytes) {
+    return {};
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   return bytes.empty() ? Picture() : Picture{id, DataUrl("image/png", bytes)};
-}
-
-// "low (green)" with a dot of this colour before it.
-std::string WithDots(const std::string& text) {
-  std::string html;
-  std::size_t from = 0;
-  for (std::size_t open = text.find('('); open != std::string::npos; open = text.find('(', from)) {
-    const std::size_t close = text.find(')', open);
-    if (close == std::string::npos) break;
-    const std::string inside = text.substr(open + 1, close - open - 1);
-    const std::string before = text.substr(from, open - from);
-    const std::size_t word = before.size() < 2 ? 0 : before.rfind(' ', before.size() - 2) + 1;
-    html += EscapeHtml(before.substr(0, word));
-    for (const char* color : {"green", "orange", "red", "grey"}) {
-      if (inside == color) html += fmt::format("<i class=\"dot {}\"></i>", color);
-    }
-    html += EscapeHtml(before.substr(word) + text.substr(open, close + 1 - open));
-    from = close + 1;
-  }
-  return html + EscapeHtml(text.substr(from));
-}
-
-// The worst of it, in one clause.
-std::string FirstLine(const CaseVerdict& verdict) {
-  if (!verdict.reason.empty()) return verdict.reason;
-  const std::vector<std::string> lines = Summarize(verdict.findings);
-  return lines.empty() ? "" : lines.front().substr(0, lines.front().find("; "));
 }
 
 const char* ToneOf(const CaseVerdict& verdict) {
@@ -66,47 +44,14 @@ const char* ToneOf(const CaseVerdict& verdict) {
   return "warn";
 }
 
-// The worst first, then those of which nothing is known, then the others; by name among equals.
-std::vector<const CaseVerdict*> InOrder(const std::vector<CaseVerdict>& verdicts) {
-  const auto rank = [](const CaseVerdict& verdict) {
-    if (verdict.outcome == Outcome::kSame) return 200;
-    if (verdict.outcome == Outcome::kNotCompared) return 101;
-    if (!verdict.now) return 100;  // a file of no case
-    return verdict.findings.empty() ? 99 : static_cast<int>(verdict.findings.front().kind);
-  };
-  std::vector<const CaseVerdict*> all;
-  all.reserve(verdicts.size());
-  for (const CaseVerdict& verdict : verdicts) all.push_back(&verdict);
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const CaseVerdict* a, const CaseVerdict* b) { return rank(*a) < rank(*b); });
-  return all;
-}
-
-// Those of layers stand in their table.
-std::vector<GoldenFinding> WithoutLayers(const std::vector<GoldenFinding>& findings) {
-  std::vector<GoldenFinding> others;
-  for (const GoldenFinding& finding : findings) {
-    if (finding.kind < FindingKind::kLight) others.push_back(finding);
-  }
-  return others;
-}
-
 class ReportWriter {
  public:
   ReportWriter(const std::vector<CaseVerdict>& verdicts, const ReportSettings& settings)
       : settings_(settings), verdicts_(InOrder(verdicts)), counts_(CountsOf(verdicts)) {}
 
   std::string Write() {
-    const std::string headline = EscapeHtml(Headline(counts_));
-    html_ = fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-        "<title>{} – {}</title>\n<style>{}</style></head>\n<body data-run=\"{}\">\n",
-        headline, EscapeHtml(settings_.folder.string()), kGoldenReportStyle,
-        EscapeHtml(settings_.out.string()));
-    AddTop(headline);
+    AddHead();
+    AddTop();
     html_ += "<main>\n";
     AddSummary();
     int number = 0;
@@ -119,14 +64,38 @@ class ReportWriter {
   }
 
  private:
-  void AddTop(const std::string& headline) {
+  // What a file may do is in it; what a served page may do, its server says.
+  void AddHead() {
+    const std::string policy =
+        settings_.review
+            ? "<link rel=\"icon\" href=\"data:,\">"
+            : "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
+              "data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">";
+    const std::string token =
+        settings_.review ? fmt::format(" data-token=\"{}\"", EscapeHtml(settings_.review->token))
+                         : "";
+    html_ = fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n{}\n"
+        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
+        "<title>{}{} – {}</title>\n<style{}>{}</style></head>\n<body data-run=\"{}\"{}>\n",
+        policy, settings_.review ? "Review: " : "", EscapeHtml(Headline(counts_)),
+        EscapeHtml(settings_.folder.string()), Nonce(), kGoldenReportStyle,
+        EscapeHtml(settings_.out.string()), token);
+  }
+
+  std::string Nonce() const {
+    if (!settings_.review) return "";
+    return fmt::format(" nonce=\"{}\"", EscapeHtml(settings_.review->nonce));
+  }
+
+  void AddTop() {
     const char* const tone = counts_.different > 0 ? "bad" : counts_.not_compared > 0 ? "warn" : "";
     html_ +=
         fmt::format("<header class=\"top\"><span class=\"mark {}\">{}</span><div><h1>{}</h1>", tone,
                     counts_.different > 0      ? "✕"
                     : counts_.not_compared > 0 ? "?"
                                                : "✓",
-                    headline);
+                    EscapeHtml(Headline(counts_)));
     const CaseVerdict* const worst = verdicts_.empty() ? nullptr : verdicts_.front();
     if (worst != nullptr && worst->outcome != Outcome::kSame) {
       html_ += fmt::format("<p>Worst: <a href=\"#case1\">{}</a>, {}. {} passed. Exit code {}.</p>",
@@ -139,19 +108,20 @@ class ReportWriter {
   }
 
   void AddSummary() {
-    html_ +=
+    html_ += fmt::format(
         "<section><table class=\"summary\"><thead><tr><th></th><th>case</th><th>in "
-        "words</th><th>fails in</th>"
-        "<th>what changed</th></tr></thead><tbody>\n";
+        "words</th><th>fails in</th><th>what changed</th>{}</tr></thead><tbody>\n",
+        settings_.review ? "<th>decision</th>" : "");
     int number = 0;
     for (const CaseVerdict* verdict : verdicts_) {
       if (verdict->outcome == Outcome::kSame) continue;
       ++number;
       html_ += fmt::format(
           "<tr><td class=\"number\">{0}</td><td><a href=\"#case{0}\">{1}</a></td><td "
-          "class=\"first\">{2}</td><td>{3}</td><td>{4}</td></tr>\n",
+          "class=\"first\">{2}</td><td>{3}</td><td>{4}</td>{5}</tr>\n",
           number, EscapeHtml(verdict->name), WithDots(FirstLine(*verdict)), LayerTags(*verdict),
-          HasCause(*verdict) ? CauseOf(verdict->changes) : "–");
+          HasCause(*verdict) ? CauseOf(verdict->changes) : "–",
+          settings_.review ? fmt::format("<td data-decision-of=\"{}\"></td>", number) : "");
     }
     html_ += "</tbody></table>\n";
     AddPassed();
@@ -165,7 +135,9 @@ class ReportWriter {
     }
     std::string tags;
     for (const GoldenLayer& layer : verdict.layers) {
-      if (!layer.passes) tags += fmt::format("<span class=\"tag bad\">{}</span> ", layer.name);
+      if (!layer.passes) {
+        tags += fmt::format("<span class=\"tag bad\">{}</span> ", EscapeHtml(layer.name));
+      }
     }
     return tags.empty() ? "<span class=\"tag bad\">accepted files</span>" : tags;
   }
@@ -188,7 +160,8 @@ class ReportWriter {
     for (const CaseVerdict* verdict : verdicts_) {
       if (!verdict->now) continue;
       html_ += "<details><summary>Environment of this run</summary><dl>";
-      html_ += fmt::format("<div><dt>program</dt><dd>kinescope {}</dd></div>", KINESCOPE_VERSION);
+      html_ += fmt::format("<div><dt>program</dt><dd>kinescope {}</dd></div>",
+                           EscapeHtml(settings_.version));
       for (const auto& [name, value] : verdict->now->environment) {
         html_ +=
             fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", EscapeHtml(name), EscapeHtml(value));
@@ -200,16 +173,11 @@ class ReportWriter {
 
   void AddCase(const CaseVerdict& verdict, int number) {
     html_ += fmt::format(
-        "<section class=\"case {}\" id=\"case{}\" data-number=\"{}\" data-name=\"{}\">\n"
-        "<div class=\"head\"><span class=\"number\">{}</span><h2>{}</h2><code>{}</code>",
-        ToneOf(verdict), number, number, EscapeHtml(verdict.name), number, EscapeHtml(verdict.name),
-        EscapeHtml(verdict.file.string()));
-    if (verdict.now) {
-      html_ +=
-          "<span class=\"decide needs-script\"><button data-decision=\"accept\" "
-          "aria-pressed=\"false\">Accept <kbd>A</kbd></button><button data-decision=\"reject\" "
-          "aria-pressed=\"false\">Reject <kbd>R</kbd></button></span>";
-    }
+        "<section class=\"case {0}\" id=\"case{1}\" data-number=\"{1}\" data-name=\"{2}\" "
+        "tabindex=\"-1\" aria-labelledby=\"name{1}\">\n<div class=\"head\"><span class=\"number\">"
+        "{1}</span><h2 id=\"name{1}\">{2}</h2><code>{3}</code>",
+        ToneOf(verdict), number, EscapeHtml(verdict.name), EscapeHtml(verdict.file.string()));
+    if (verdict.now) AddDecisions();
     if (!verdict.why.empty()) {
       html_ += fmt::format("<p class=\"why\">It checks: {}</p>", EscapeHtml(verdict.why));
     }
@@ -219,6 +187,18 @@ class ReportWriter {
     if (verdict.outcome == Outcome::kDiffers) AddFindings(verdict);
     AddCommands(verdict);
     html_ += "</section>\n";
+  }
+
+  void AddDecisions() {
+    if (settings_.review) html_ += "<span class=\"outcome\"></span>";
+    html_ +=
+        "<span class=\"decide needs-script\"><button data-decision=\"accept\" "
+        "aria-pressed=\"false\">Accept <kbd>A</kbd></button><button data-decision=\"reject\" "
+        "aria-pressed=\"false\">Reject <kbd>R</kbd></button>";
+    if (settings_.review) {
+      html_ += "<button data-decision=\"later\" aria-pressed=\"false\">Later <kbd>L</kbd></button>";
+    }
+    html_ += "</span>";
   }
 
   void AddWords(const CaseVerdict& verdict) {
@@ -254,8 +234,8 @@ class ReportWriter {
         "</thead><tbody>";
     for (const GoldenLayer& layer : verdict.layers) {
       html_ += fmt::format("<tr class=\"{}\"><th>{} {}</th><td>{}</td></tr>",
-                           layer.passes ? "" : "fails", layer.passes ? "✓" : "✕", layer.name,
-                           EscapeHtml(layer.found));
+                           layer.passes ? "" : "fails", layer.passes ? "✓" : "✕",
+                           EscapeHtml(layer.name), EscapeHtml(layer.found));
     }
     html_ += "</tbody></table>";
   }
@@ -349,22 +329,27 @@ class ReportWriter {
     html_ += fmt::format(
         "<div class=\"commands\"><span>Draw it again: <code>kinescope golden check {0} {1}</code>"
         "</span>",
-        EscapeHtml(settings_.folder.string()), EscapeHtml(verdict.name));
-    if (verdict.now) {
-      html_ +=
-          fmt::format("<span>Accept it as it is: <code>kinescope golden accept {} {}</code></span>",
-                      EscapeHtml(settings_.out.string()), EscapeHtml(verdict.name));
+        EscapeHtml(ShellWord(settings_.folder.string())), EscapeHtml(ShellWord(verdict.name)));
+    if (verdict.now && !settings_.review) {
+      html_ += fmt::format(
+          "<span>Accept it as it is: <code>kinescope golden accept {} {}</code></span>",
+          EscapeHtml(ShellWord(settings_.out.string())), EscapeHtml(ShellWord(verdict.name)));
     }
     html_ += "</div>\n";
   }
 
   void AddFoot() {
     html_ += fmt::format(
-        "<footer class=\"needs-script\"><b id=\"decisions\">0 decided</b><code id=\"command\">"
-        "</code><button id=\"copy\" disabled>Copy</button><span class=\"keys\"><kbd>J</kbd> "
-        "<kbd>K</kbd> next, previous · <kbd>A</kbd> accept · <kbd>R</kbd> reject · <kbd>U</kbd> "
-        "undo · <kbd>1</kbd> to <kbd>4</kbd> views</span></footer>\n<script>{}</script>\n",
-        kGoldenReportScript);
+        "<footer class=\"needs-script\"><b id=\"decisions\">0 decided</b>{}<span class=\"keys\">"
+        "<kbd>J</kbd> <kbd>K</kbd> next, previous · <kbd>A</kbd> accept · <kbd>R</kbd> reject · {}"
+        "<kbd>U</kbd> undo · <kbd>1</kbd> to <kbd>4</kbd> views</span></footer>\n"
+        "<script{}>{}</script>\n",
+        settings_.review
+            ? "<span id=\"said\" role=\"status\">Accepting writes the picture and "
+              "golden.lock at once; U restores them.</span><button id=\"finish\" disabled>"
+              "Finish <kbd>F</kbd></button>"
+            : "<code id=\"command\"></code><button id=\"copy\" disabled>Copy</button>",
+        settings_.review ? "<kbd>L</kbd> later · " : "", Nonce(), kGoldenReportScript);
   }
 
   const ReportSettings& settings_;

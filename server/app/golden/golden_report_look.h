@@ -1,14 +1,16 @@
-/// Style and script of the report. The script adds views, keys and the list of what is to be
-/// accepted; without it everything is there to be read.
+/// Style and script of the report. The script adds views, keys and decisions; without it everything
+/// is there to be read. In a file it collects the command that accepts. In a page that `golden
+/// review` serves, which has a token, it orders each decision from ReviewSite and shows what became
+/// of it; a decision is shown only when the server has confirmed it.
 #pragma once
 
 namespace kinescope::app {
 
 inline constexpr char kGoldenReportStyle[] = R"(
 :root { color-scheme: light dark; --page: #f1f3f6; --panel: #fff; --ink: #1a212b; --quiet: #55606f; --line: #d9dee5;
-  --link: #1d5aa0; --bad: #b0241c; --bad-soft: #fcebea; --warn: #855000; --warn-soft: #fff3de; --ok: #0d6b32; --code: #eef1f5; }
+  --link: #1d5aa0; --bad: #b0241c; --bad-soft: #fcebea; --warn: #855000; --warn-soft: #fff3de; --ok: #0d6b32; --ok-soft: #e2f4e8; --code: #eef1f5; }
 @media (prefers-color-scheme: dark) { :root { --page: #10141a; --panel: #181d25; --ink: #e4e8ee; --quiet: #9da8b6; --line: #2c3440;
-  --link: #80b5f1; --bad: #ff8d83; --bad-soft: #3b1d1c; --warn: #f0a840; --warn-soft: #342810; --ok: #4fc47d; --code: #222a34; } }
+  --link: #80b5f1; --bad: #ff8d83; --bad-soft: #3b1d1c; --warn: #f0a840; --warn-soft: #342810; --ok: #4fc47d; --ok-soft: #15301f; --code: #222a34; } }
 * { box-sizing: border-box; }
 html { scroll-padding-top: 8px; }
 body { margin: 0; padding: 0 0 72px; background: var(--page); color: var(--ink); font: 14px/1.45 "DejaVu Sans", system-ui, Arial, sans-serif; }
@@ -28,7 +30,7 @@ header.top p { color: var(--quiet); }
 .mark.bad { background: #b0241c; } .mark.warn { background: #855000; }
 main { max-width: 1560px; margin: 0 auto; padding: 14px 22px; display: grid; gap: 14px; }
 main > section { border-radius: 10px; padding: 14px 18px; min-width: 0; }
-section.case:target, section.case.here { box-shadow: 0 0 0 2px var(--link); }
+section.case:target, section.case.here { box-shadow: 0 0 0 2px var(--link); } section.case:focus-visible { outline-color: transparent; }
 table { border-collapse: collapse; width: 100%; font-size: 13px; }
 th { text-align: left; } thead th { color: var(--quiet); font-weight: normal; font-size: 12px; }
 td, th { padding: 4px 12px 4px 0; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
@@ -43,6 +45,12 @@ table.summary .first { font-weight: 600; }
 .head { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: baseline; }
 .head .why { flex-basis: 100%; color: var(--quiet); } .head code { color: var(--quiet); }
 .decide { margin-left: auto; display: flex; gap: 6px; }
+.accepted { --tone: var(--ok); --soft: var(--ok-soft); } .rejected, .failed { --tone: var(--bad); --soft: var(--bad-soft); } .later { --tone: var(--warn); --soft: var(--warn-soft); }
+.outcome, td[data-decision-of], #said { color: var(--tone, inherit); font-weight: 600; } #said:not(.failed) { font-weight: normal; }
+.outcome { font-size: 12.5px; padding: 2px 10px; border-radius: 5px; background: var(--soft); overflow-wrap: anywhere; } .outcome:empty { display: none; }
+.outcome { margin-left: auto; } .outcome:not(:empty):not(.failed) + .decide { margin-left: 0; }
+.outcome.failed { flex-basis: 100%; order: 1; margin: 0; padding: 6px 10px; }
+.accepted::before { content: "\2713\00a0"; } .rejected::before { content: "\2715\00a0"; } .later::before { content: "\2026\00a0"; }
 .headline { font-size: 16px; font-weight: 600; color: var(--bad); margin: 8px 0; overflow-wrap: anywhere; }
 .warn .headline { color: var(--warn); }
 .two { display: grid; grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr); gap: 22px; }
@@ -69,18 +77,20 @@ svg.shot rect.mask { fill: rgb(133 80 0 / .2); stroke: #855000; stroke-dasharray
 .commands { display: flex; flex-wrap: wrap; gap: 6px 26px; margin-top: 12px; padding-top: 10px; border-top: 1px solid var(--line); font-size: 12.5px; color: var(--quiet); }
 dl { margin: 0; display: grid; gap: 3px; font-size: 12.5px; } dl div { display: grid; grid-template-columns: 120px minmax(0, 1fr); } dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
 footer { position: fixed; left: 0; right: 0; bottom: 0; background: var(--panel); border-top: 1px solid var(--line); padding: 9px 22px; display: flex; flex-wrap: wrap; gap: 6px 16px; align-items: center; font-size: 13px; }
+footer #said { flex: 1 1 240px; min-width: 0; overflow-wrap: anywhere; }
 footer .keys { color: var(--quiet); font-size: 12px; }
 .js .needs-script { display: flex; } .needs-script { display: none; }
 @media screen and (max-width: 760px) { .two, .pictures { grid-template-columns: minmax(0, 1fr); } main { padding: 10px; } main > section { padding: 10px 12px; }
   header.top { padding: 10px 12px; } table.summary thead { display: none; } table.summary tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--line); }
-  table.summary td { display: inline; border: 0; padding: 0 6px 0 0; } table.summary td:nth-child(3) { display: block; } footer .keys, .hide-narrow { display: none; } dl div { grid-template-columns: 90px minmax(0, 1fr); } }
+  table.summary td { display: inline; border: 0; padding: 0 6px 0 0; } table.summary td:nth-child(3) { display: block; } footer .keys, .hide-narrow { display: none; } [data-token] button { min-height: 40px; } .outcome:not(:empty):not(.failed) + .decide { margin-left: auto; } dl div { grid-template-columns: 90px minmax(0, 1fr); } }
 @media print { body { padding: 0; } footer, .views, .decide { display: none !important; } section.case { break-before: page; } @page { size: A4 landscape; margin: 9mm; } }
 )";
 
 inline constexpr char kGoldenReportScript[] = R"(
 document.documentElement.classList.add('js');
 const cases = [...document.querySelectorAll('section.case')], decided = new Map();
-const run = document.body.dataset.run;
+const { run, token } = document.body.dataset;  // with a token, a server carries out what is decided
+const decidable = document.querySelectorAll('.decide').length;
 let at = 0;
 const setView = (one, view) => {
   if (view === 'side') delete one.dataset.view; else one.dataset.view = view;
@@ -92,49 +102,129 @@ const setView = (one, view) => {
   over.querySelector('use').setAttribute('href', `#${view === 'heat' ? 'd' : 'a'}${one.dataset.number}`);
   label.textContent = { blink: 'This run', slider: 'Accepted | this run', heat: 'Difference' }[view] ?? '';
 };
-const decide = (one, verdict) => {
-  if (!one.querySelector('.decide')) return;
-  if (verdict === null) decided.delete(one.dataset.name); else decided.set(one.dataset.name, verdict);
-  one.querySelectorAll('.decide button').forEach((each) => { each.ariaPressed = String(each.dataset.decision === verdict); });
+const collect = () => {
   const names = [...decided].filter(([, each]) => each === 'accept').map(([name]) => name);
-  document.getElementById('decisions').textContent = `${decided.size} of ${document.querySelectorAll('.decide').length} decided`;
   document.getElementById('command').textContent = names.length === 0 ? '' : `kinescope golden accept ${run} ${names.join(' ')}`;
   document.getElementById('copy').disabled = names.length === 0;
 };
+const show = (one, verdict) => {
+  if (!one.querySelector('.decide')) return;
+  if (verdict === null) decided.delete(one.dataset.name); else decided.set(one.dataset.name, verdict);
+  one.querySelectorAll('.decide button').forEach((each) => { each.ariaPressed = String(each.dataset.decision === verdict); });
+  document.getElementById('decisions').textContent = `${decided.size} of ${decidable} decided`;
+};
+const mark = (to) => {
+  at = to;
+  cases.forEach((each, i) => each.classList.toggle('here', i === at));
+};
 const go = (to) => {
   if (cases.length === 0) return;
-  at = Math.max(0, Math.min(cases.length - 1, to));
-  cases.forEach((each, i) => each.classList.toggle('here', i === at));
+  mark(Math.max(0, Math.min(cases.length - 1, to)));
   cases[at].scrollIntoView({ block: 'start' });
+  cases[at].focus({ preventScroll: true });
 };
-for (const one of cases) {
+// A key decides about the case that is marked and in sight, and no other.
+const isInSight = (one) => {
+  const { top, bottom } = one.getBoundingClientRect();
+  return one.classList.contains('here') && top < innerHeight / 2 && bottom > innerHeight / 8;
+};
+
+const words = { accept: 'accepted', reject: 'rejected', later: 'later' };
+let isWaiting = false, hasEnded = false;
+const say = (text, tone = '') => Object.assign(document.getElementById('said'), { textContent: text, className: tone });
+const note = (one, text, tone) => Object.assign(one.querySelector('.outcome'), { textContent: text, className: `outcome ${tone}` });
+const showAll = (decisions) => {
+  for (const one of cases.filter((each) => each.querySelector('.decide'))) {
+    const word = decisions[one.dataset.name] ?? '', cell = document.querySelector(`[data-decision-of="${one.dataset.number}"]`);
+    show(one, Object.keys(words).find((each) => words[each] === word) ?? null);
+    if (cell.textContent !== word) note(one, word, word);  // why an order failed stays
+    Object.assign(cell, { textContent: word, className: word });
+  }
+  document.getElementById('finish').disabled = hasEnded || decided.size < decidable;
+};
+// What the server says; nothing if it has ended or another request is under way.
+const ask = async (path, order) => {
+  if (isWaiting || hasEnded) return null;
+  isWaiting = true;
+  try {
+    const headers = { authorization: `Bearer ${token}` };
+    const response = await fetch(path, order ? { method: 'POST', headers, body: JSON.stringify(order) } : { headers });
+    const said = await response.json();
+    if (path === 'end' && response.ok) hasEnded = true;
+    if (said.decisions) showAll(said.decisions);
+    return said;
+  } catch {
+    say(`The review does not answer. If it has ended, continue it with: kinescope golden review ${run}`, 'failed');
+    return null;
+  } finally {
+    isWaiting = false;
+  }
+};
+const finish = async () => {
+  const said = await ask('end', {});
+  if (!said) return;
+  if (said.error) return say(said.error, 'failed');
+  document.querySelectorAll('.decide button').forEach((each) => { each.disabled = true; });
+  const counts = Object.entries(words).map(([verdict, word]) => `${[...decided.values()].filter((each) => each === verdict).length} ${word}`);
+  say(`The review has ended: ${counts.join(', ')}. This page can be closed.`);
+};
+const order = async (one, verdict) => {
+  const name = one.dataset.name;
+  const said = await ask('decisions', { case: name, order: verdict ?? 'undo' });
+  if (!said) return false;
+  if (said.error) {
+    note(one, `${verdict ? `not ${words[verdict]}` : 'not undone'}: ${said.error}`, 'failed');
+    say(`${name}: ${one.querySelector('.outcome').textContent}`, 'failed');
+    return false;
+  }
+  note(one, words[verdict] ?? '', words[verdict] ?? '');
+  say(`${name}: ${words[verdict] ?? 'undecided'}.${decided.size < decidable ? '' : ' All are decided.'}`);
+  return true;
+};
+const decide = async (one, verdict) => {
+  if (!one.querySelector('.decide')) return true;
+  if (token) return order(one, verdict);
+  show(one, verdict);
+  collect();
+  return true;
+};
+const decideByKey = async (verdict) => {
+  if (!isInSight(cases[at])) return go(at);
+  const from = at;
+  if (await decide(cases[from], verdict) && verdict && at === from) go(from + 1);
+};
+cases.forEach((one, i) => {
+  for (const kind of ['focusin', 'pointerdown']) one.addEventListener(kind, () => mark(i));
   one.querySelectorAll('.views button').forEach((each) => each.addEventListener('click', () => setView(one, each.dataset.view)));
   one.querySelector('.slide')?.addEventListener('input', () => setView(one, 'slider'));
   one.querySelectorAll('.decide button').forEach((each) => each.addEventListener('click',
     () => decide(one, each.ariaPressed === 'true' ? null : each.dataset.decision)));
-}
+});
 setInterval(() => document.querySelectorAll('.case[data-view=blink] .over').forEach((over) => {
   const isAfter = over.style.visibility === 'hidden';
   over.style.visibility = isAfter ? 'visible' : 'hidden';
   over.parentElement.querySelector('.label').textContent = isAfter ? 'This run' : 'Accepted';
 }), 600);
-document.getElementById('copy').addEventListener('click', () => {
+document.getElementById('copy')?.addEventListener('click', () => {
   const range = document.createRange();
   range.selectNodeContents(document.getElementById('command'));
   getSelection().removeAllRanges();
   getSelection().addRange(range);
   navigator.clipboard?.writeText(document.getElementById('command').textContent).catch(() => undefined);
 });
+document.getElementById('finish')?.addEventListener('click', finish);
+if (token) ask('decisions').then((said) => { if (said?.error) say(said.error, 'failed'); });
 document.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || cases.length === 0) return;
   const one = cases[at], views = { 1: 'side', 2: 'blink', 3: 'slider', 4: 'heat' };
+  const verdicts = { a: 'accept', r: 'reject', u: null, ...(token && { l: 'later' }) };
   const key = event.key.toLowerCase();
   if (key === 'j') go(at + (one.classList.contains('here') ? 1 : 0));
   else if (key === 'k') go(at - 1);
   else if (key in views) setView(one, views[key]);
-  else if (key === 'a') { decide(one, 'accept'); go(at + 1); }
-  else if (key === 'r') { decide(one, 'reject'); go(at + 1); }
-  else if (key === 'u') decide(one, null);
+  else if (event.repeat) return;  // a key that is held down decides once
+  else if (key in verdicts) decideByKey(verdicts[key]);
+  else if (key === 'f' && token && !document.getElementById('finish').disabled) finish();
 });
 )";
 

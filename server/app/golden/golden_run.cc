@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
@@ -19,6 +21,26 @@ using nlohmann::json;
 constexpr int kRunSchema = 1;
 
 fs::path FileOf(const fs::path& out) { return out / "run.json"; }
+
+// Pictures are looked for under this name: "../bend" would be one of another folder.
+bool IsFileName(const std::string& name) {
+  return !name.empty() && name.find_first_of(std::string_view("/\0", 2)) == std::string::npos;
+}
+
+// Of those that were drawn, which have pictures.
+void CheckNames(const std::vector<CaseVerdict>& verdicts) {
+  std::set<std::string> names;
+  for (const CaseVerdict& verdict : verdicts) {
+    if (!verdict.now) continue;
+    if (!IsFileName(verdict.name)) {
+      throw std::runtime_error(
+          fmt::format("case '{}'; expected the name of a file, without a folder", verdict.name));
+    }
+    if (!names.insert(verdict.name).second) {
+      throw std::runtime_error(fmt::format("case '{}' is there twice", verdict.name));
+    }
+  }
+}
 
 }  // namespace
 
@@ -61,7 +83,9 @@ GoldenRun ParseRun(const std::string& text) {
   }
   GoldenRun run;
   run.folder = document.at("folder").get<std::string>();
-  for (const auto& line : document.at("cases")) run.cases.push_back(VerdictFrom(line));
+  run.version = document.at("kinescope");
+  for (const json& line : document.at("cases")) run.verdicts.push_back(VerdictFrom(line));
+  CheckNames(run.verdicts);
   return run;
 }
 

@@ -1,5 +1,6 @@
 /// The folder that a check leaves: new pictures, and `run.json` with the verdicts, hashes of inputs
-/// and environment, from which pictures are accepted on another machine. Pure but for files; one
+/// and environment, from which pictures are accepted on another machine. A run may come from a
+/// stranger: what is read is what a check can have written, and no more. Pure but for files; one
 /// thread.
 #pragma once
 
@@ -21,7 +22,10 @@ void WriteRun(const std::filesystem::path& out, const std::filesystem::path& fol
 
 struct GoldenRun {
   std::filesystem::path folder;  // of the cases, as the run was given it
-  std::vector<CaseVerdict> cases;
+  std::string version;           // of the program that has drawn
+  /// The names of those that were drawn are names of files without a
+  /// folder, and each is there once.
+  std::vector<CaseVerdict> verdicts;
 };
 
 /// The content of `run.json`. @throws std::exception with the reason.

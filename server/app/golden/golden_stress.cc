@@ -87,7 +87,7 @@ class Stress {
                                    : fmt::format("drawing ended with signal {}", child.signal));
     }
     Drawn drawn;
-    for (CaseVerdict& each : ReadRun(out).cases) {
+    for (CaseVerdict& each : ReadRun(out).verdicts) {
       if (!each.now) SetExitCode(2);
       drawn[each.name] = std::move(each);
     }

@@ -97,6 +97,8 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
                {"same", verdict.outcome == Outcome::kSame},
                {"byte_equal", verdict.is_byte_equal},
                {"problems", Explain(verdict)},
+               {"reason", verdict.reason},
+               {"notes", verdict.notes},
                {"seconds", verdict.secs}};
   line["findings"] = Json::array();
   for (const GoldenFinding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
@@ -117,8 +119,6 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
 
 Json ToWholeJson(const CaseVerdict& verdict, const fs::path& out) {
   Json line = ToJson(verdict, out);
-  line["reason"] = verdict.reason;
-  line["notes"] = verdict.notes;
   line["masks"] = Json::array();
   for (const render::Tile& mask : verdict.masks) line["masks"].push_back(ToJson(mask));
   line["accepted_pixels"] = verdict.accepted_pixels;
