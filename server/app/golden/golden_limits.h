@@ -2,6 +2,7 @@
 /// `tolerance`. A class of a load is never allowed to differ. Pure; any thread.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
