@@ -21,14 +21,11 @@ namespace {
 
 constexpr std::size_t kMostMasks = 64, kMostReason = 300;
 
-std::vector<std::string> LinesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    if (end > begin) lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
+// With semicolons between them, as in every option that may be given several times.
+std::vector<std::string> EntriesOf(const std::string& text) {
+  options::Texts texts;
+  texts.Parse(text);
+  return *texts;
 }
 
 // The first word, and the rest without blanks around it.
@@ -114,7 +111,7 @@ void ForRows(const render::Tile& box, int width, DoWithRow do_with_row) {
 
 }  // namespace
 
-void MasksValue::Parse(const std::string& text) { ParseAll(LinesOf(text)); }
+void MasksValue::Parse(const std::string& text) { ParseAll(EntriesOf(text)); }
 
 void MasksValue::ParseAll(const std::vector<std::string>& texts) {
   if (texts.size() > kMostMasks) {
@@ -142,7 +139,7 @@ std::string MasksValue::Expected() const {
   return "WIDTHxHEIGHT+LEFT+TOP REASON (px), such as 160x40+20+300 the clock of the lab";
 }
 
-void LimitsValue::Parse(const std::string& text) { ParseAll(LinesOf(text)); }
+void LimitsValue::Parse(const std::string& text) { ParseAll(EntriesOf(text)); }
 
 void LimitsValue::ParseAll(const std::vector<std::string>& texts) {
   GoldenLimits limits;
