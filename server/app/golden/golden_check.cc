@@ -414,7 +414,9 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
 }
 
 std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
-                                   const CheckSettings& settings, render::Renderer& renderer) {
+                                   const CheckSettings& settings,
+                                   const std::map<std::string, std::string>& environment,
+                                   render::Renderer& renderer) {
   std::vector<CaseVerdict> verdicts;
   Clock::time_point begin = Clock::now();
   const auto add = [&](CaseVerdict verdict) {
@@ -429,7 +431,6 @@ std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& fo
     return verdict;
   };
   if (!found.read) return {not_compared(found.error)};
-  const auto environment = EnvironmentOf(renderer.info());
   std::exception_ptr cannot_write;  // which is no fault of the case
   try {
     Draw(*found.read, renderer, [&](GoldenDrawing drawing) {

@@ -19,9 +19,12 @@ struct CheckSettings {
 };
 
 /// Draws a case and compares it: one verdict, or of a clip one for each picture, and for each that
-/// is accepted and not drawn. @throws std::runtime_error if a picture cannot be written.
+/// is accepted and not drawn. `environment`: EnvironmentOf() the renderer. @throws
+/// std::runtime_error if a picture cannot be written.
 std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& found,
-                                   const CheckSettings& settings, render::Renderer& renderer);
+                                   const CheckSettings& settings,
+                                   const std::map<std::string, std::string>& environment,
+                                   render::Renderer& renderer);
 
 /// Of the files that belong to no case.
 std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite);

@@ -172,11 +172,12 @@ void AnswerOrders(const GoldenSuite& suite, const CheckSettings& settings,
                   const BackendOptions& backend) {
   try {
     const auto renderer = StartRenderer(backend);
+    const auto environment = EnvironmentOf(renderer->info());
     Answer({{"is_ready", true}});
     for (std::string name; std::getline(std::cin, name, '\0');) {
       nlohmann::ordered_json verdicts = nlohmann::ordered_json::array();
       for (const CaseVerdict& each :
-           CheckCase(suite, CaseNamed(name, suite), settings, *renderer)) {
+           CheckCase(suite, CaseNamed(name, suite), settings, environment, *renderer)) {
         verdicts.push_back(ToWholeJson(each, settings.out));
       }
       Answer(verdicts);
