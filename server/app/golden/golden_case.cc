@@ -131,7 +131,8 @@ GoldenCase::GoldenCase()
 }
 
 void GoldenCase::List(options::OptionList& option) {
-  option("source", source, "recording, relative to the case, or demo:MOTION");
+  option("source", source,
+         "recording, relative to the case, demo:MOTION, or pose:ANGLES (docs/pose.md)");
   option("time", time, "time after the first sample");
   option("state", state, "state of the stream that is shown");
   option("why", why, "purpose of the case, shown when it fails");
