@@ -109,6 +109,14 @@ std::array<Vector3d, kJointCount> AnatomicalAngles(const SegmentOrientations& or
   return angles;
 }
 
+Quaterniond RotationOfJoint(int joint, const Vector3d& degrees) {
+  const Vector3d turns = SignsOf(joint).cwiseProduct(degrees) * (M_PI / 180);
+  const Quaterniond turn = Eigen::AngleAxisd(turns.z(), -Vector3d::UnitY()) *  // to the right
+                           Eigen::AngleAxisd(turns.x(), Vector3d::UnitX()) *
+                           Eigen::AngleAxisd(turns.y(), Vector3d::UnitZ());
+  return SegmentFromIsb(urdf::ParentOf(joint)) * turn * SegmentFromIsb(ChildOf(joint)).conjugate();
+}
+
 std::array<Vector3d, kErgonomicAngleCount> ErgonomicAngles(const SegmentOrientations& orientations,
                                                            AngleSequence sequence) {
   std::array<Vector3d, kErgonomicAngleCount> angles;

@@ -27,6 +27,11 @@ using SegmentOrientations = std::array<Eigen::Quaterniond, kSegmentCount>;  // w
 std::array<Eigen::Vector3d, kJointCount> AnatomicalAngles(const SegmentOrientations& orientations,
                                                           AngleSequence sequence);
 
+/// Inverse of AnatomicalAngles() with kZxy, of one joint: the rotation parent_from_child of the
+/// segment frames. Of equal rotations AnatomicalAngles() returns the one with |x| <= 90 deg, and y
+/// = 0 where |x| is 90 deg.
+Eigen::Quaterniond RotationOfJoint(int joint, const Eigen::Vector3d& degrees);
+
 /// The angles between segments that are not neighbours, and of the trunk against the vertical.
 enum class ErgonomicAngle {
   kT8Head,

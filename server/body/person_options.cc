@@ -101,10 +101,11 @@ void PersonOptions::List(options::OptionList& option) {
          fmt::format("body mass; not given: {} kg (male) or {} kg (female) is assumed",
                      urdf::DefaultMass(urdf::Sex::kMale), urdf::DefaultMass(urdf::Sex::kFemale)));
   option("height", height,
-         fmt::format("stature until the stream contains segment lengths, and that of demo:; not "
-                     "given: {} m is "
-                     "assumed",
-                     urdf::kDefaultHeight));
+         fmt::format(
+             "stature until the stream contains segment lengths, and that of demo: and pose:; not "
+             "given: {} m is "
+             "assumed",
+             urdf::kDefaultHeight));
   option("body_table", body_table, "source of the segment masses (docs/loads.md)");
   option("extra_mass", extra_mass, "equipment that is worn or carried");
   option(

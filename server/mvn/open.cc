@@ -14,7 +14,9 @@ namespace kinescope::mvn {
 
 std::unique_ptr<DatagramSource> OpenDatagrams(const std::string& url) {
   if (IsNetUrl(url)) return url[0] == 'u' ? OpenUdpDatagrams(url) : OpenTcpDatagrams(url);
-  if (StartsWith(url, "demo:") || StartsWith(url, "ros:")) return nullptr;
+  for (const char* other : {"demo:", "pose:", "ros:"}) {
+    if (StartsWith(url, other)) return nullptr;
+  }
   InputFile file = OpenInputFile(url);
   const RecordingKind kind = KindOf(file.head());
   if (kind == RecordingKind::kMvnx || kind == RecordingKind::kRosBag) return nullptr;

@@ -276,9 +276,9 @@ std::vector<std::filesystem::path> GhostValue::Files() const {
 }
 
 void GhostValue::SetFolder(const std::filesystem::path& folder) {
-  if (value_.kind != GhostSource::Kind::kMoment || StartsWith(value_.source, "demo:")) {
-    return;
-  }
+  const bool is_generated =
+      StartsWith(value_.source, "demo:") || StartsWith(value_.source, "pose:");
+  if (value_.kind != GhostSource::Kind::kMoment || is_generated) return;
   value_.source = (folder / value_.source).string();
   text_ = (folder / text_).string();  // it begins with the source
 }

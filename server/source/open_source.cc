@@ -55,6 +55,9 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
     case SourceKind::kSubject:
       return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0,
                                   settings.subject_height_m);
+    case SourceKind::kPose:
+      return subject::OpenPose(WithoutScheme(url), settings.subject_rate_hz,
+                               settings.subject_height_m);
     case SourceKind::kFile: break;
   }
   return OpenFile(url, settings);

@@ -15,15 +15,14 @@ namespace kinescope::app {
 inline constexpr double kSubjectRateHz = 120;
 
 struct SourceSettings {
-  double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:`
+  double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:` and `pose:`
   double subject_height_m = urdf::kDefaultHeight;
   mvn::StreamSettings stream;        // for sources of datagrams
   mvn::DatagramSink* tap = nullptr;  // receives the datagrams of a live stream, too; borrowed
 };
 
-/// `demo:lift`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`, `take.bin.xz`, `walk.bag`,
-/// `ros:`.
-/// The format of a file is detected by its content.
+/// `demo:lift`, `pose:right_elbow=90`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`,
+/// `take.bin.xz`, `walk.bag`, `ros:`. The format of a file is detected by its content.
 /// @throws SourceError with the URL and the expected form or the remedy.
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings = {});
 

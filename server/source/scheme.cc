@@ -14,11 +14,12 @@ struct Scheme {
   const char* help;
 };
 
-constexpr std::array<Scheme, 5> kSchemes = {{
+constexpr std::array<Scheme, 6> kSchemes = {{
     {SourceKind::kUdp, "udp:", true, "udp://[address]:port"},
     {SourceKind::kTcp, "tcp:", true, "tcp://[address]:port"},
     {SourceKind::kGraph, "ros:", true, "ros: or ros:/topic"},
     {SourceKind::kSubject, "demo:", false, "demo:MOTION"},
+    {SourceKind::kPose, "pose:", false, "pose:ANGLES (such as pose:right_elbow=90,left_knee=45)"},
     {SourceKind::kFile, "", false,
      "a recording (MVNX, pcap, pcapng, .bin or ROS bag, also packed with gzip or xz; - for "
      "standard input)"},
@@ -53,7 +54,10 @@ SourceKind KindOfSource(std::string_view url) { return SchemeOf(url).kind; }
 
 bool IsLiveUrl(std::string_view url) { return SchemeOf(url).is_live; }
 
-bool IsSubjectUrl(std::string_view url) { return KindOfSource(url) == SourceKind::kSubject; }
+bool IsSubjectUrl(std::string_view url) {
+  const SourceKind kind = KindOfSource(url);
+  return kind == SourceKind::kSubject || kind == SourceKind::kPose;
+}
 
 bool IsNetworkUrl(std::string_view url) {
   const SourceKind kind = KindOfSource(url);

@@ -7,13 +7,14 @@
 
 namespace kinescope::app {
 
-enum class SourceKind { kUdp, kTcp, kGraph, kSubject, kFile };
+enum class SourceKind { kUdp, kTcp, kGraph, kSubject, kPose, kFile };
 
 /// Never fails: whatever has no scheme is a file.
 SourceKind KindOfSource(std::string_view url);
 
 /// Whether samples arrive when they are measured, and the source has no end.
 bool IsLiveUrl(std::string_view url);
+/// The built-in subject, in motion or in a written pose: samples are generated, and never end.
 bool IsSubjectUrl(std::string_view url);
 bool IsNetworkUrl(std::string_view url);
 
@@ -23,7 +24,7 @@ std::vector<std::string> SchemePrefixes();
 /// After the scheme: "lift" of "demo:lift".
 std::string WithoutScheme(std::string_view url);
 
-/// "udp://[address]:port, ..., demo:MOTION (lift, walk, ...)", for --help and errors.
+/// "udp://[address]:port, ..., demo:MOTION (lift, walk, ...), ...", for --help and errors.
 const std::string& SourceKinds();
 /// Those with an end or a beginning of their own: the subject and files.
 const std::string& RecordedSourceKinds();

@@ -3,11 +3,15 @@
 #include <filesystem>
 
 #include "server/source/scheme.h"
+#include "server/subject/pose_text.h"
 
 namespace kinescope::app {
 
 SourceIdentity IdentityOf(const std::string& url) {
   SourceIdentity identity{url, {}, true};
+  if (KindOfSource(url) == SourceKind::kPose) {
+    identity.name = "pose:" + subject::ParsePose(WithoutScheme(url)).text;  // one line, no blanks
+  }
   if (IsSubjectUrl(url)) return identity;
   if (IsLiveUrl(url)) {
     identity.is_repeatable = false;

@@ -113,5 +113,6 @@ inline JetQuaternion TurnZ(const Jet& angle) {
 }
 
 inline JetVector Constant(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline JetQuaternion Constant(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 }  // namespace kinescope::subject

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "server/subject/pose_text.h"
 #include "server/subject/posture.h"
 #include "urdf/skeleton.h"
 
@@ -35,5 +36,11 @@ enum class StaticPosture { kSquat, kOverhead, kSit };
 /// carry everything.
 std::unique_ptr<MotionGenerator> MakeStaticPosture(const urdf::Skeleton& skeleton,
                                                    StaticPosture posture);
+
+/// `base` with the joints of `pose` bent, standing on z = 0 with the lowest point of its feet.
+/// `base` is read at once.
+std::unique_ptr<MotionGenerator> MakeWrittenPose(const urdf::Skeleton& skeleton,
+                                                 const WrittenPose& pose,
+                                                 const MotionGenerator& base);
 
 }  // namespace kinescope::subject

@@ -3,8 +3,6 @@
 namespace kinescope::subject {
 namespace {
 
-JetQuaternion ConstantTurn(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
-
 class Stand final : public MotionGenerator {
  public:
   Stand(const urdf::Skeleton& skeleton, Arms arms) : skeleton_(skeleton), arms_(arms) {}
@@ -18,7 +16,7 @@ class Stand final : public MotionGenerator {
     for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
       // A segment frame is identity in the T-pose, a link frame in the N-pose.
       posture.Orient(segment, arms_ == Arms::kSideways
-                                  ? ConstantTurn(urdf::SegmentFromLink(segment))
+                                  ? subject::Constant(urdf::SegmentFromLink(segment))
                                   : JetQuaternion::Identity());
     }
     return posture;

@@ -33,11 +33,13 @@ std::unique_ptr<MotionGenerator> MakeGenerator(const std::string& name,
 
 class BuiltInMotion final : public Motion {
  public:
-  BuiltInMotion(const std::string& name, double height_m)
+  /// `make` gets a skeleton to borrow and returns a MotionGenerator.
+  template <class Make>
+  BuiltInMotion(const char* person, double height_m, const Make& make)
       : skeleton_(urdf::DefaultSkeleton(height_m)),
         body_(urdf::MakeBodyParameters({}, skeleton_)),
-        generator_(MakeGenerator(name, skeleton_)) {
-    character_.name = "Demo";
+        generator_(make(skeleton_)) {
+    character_.name = person;
     character_.skeleton = skeleton_;
     character_.landmarks = urdf::LandmarksOf(skeleton_);
   }
@@ -64,9 +66,9 @@ class BuiltInMotion final : public Motion {
 
 class SubjectSource final : public Source {
  public:
-  SubjectSource(const std::string& motion, double rate_hz, double seconds, double height_m)
-      : motion_(MakeMotion(motion, height_m)),
-        description_("demo:" + motion),
+  SubjectSource(std::unique_ptr<Motion> motion, std::string url, double rate_hz, double seconds)
+      : motion_(std::move(motion)),
+        description_(std::move(url)),
         rate_hz_(rate_hz),
         endless_(seconds == 0),
         sample_count_(endless_ ? 0 : static_cast<std::uint64_t>(std::llround(seconds * rate_hz))) {}
@@ -99,30 +101,61 @@ class SubjectSource final : public Source {
   std::uint64_t next_ = 0;
 };
 
-}  // namespace
-
-const std::vector<std::string>& MotionNames() {
-  static const std::vector<std::string> kNames = {"lift",  "walk",     "n_pose", "t_pose",
-                                                  "squat", "overhead", "sit"};
-  return kNames;
-}
-
-std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m) {
-  KINESCOPE_CHECK(height_m >= 0.5 && height_m <= 2.5);
-  return std::make_unique<BuiltInMotion>(name, height_m);
-}
-
-std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds,
-                                    double height_m) {
+std::unique_ptr<Source> Open(std::unique_ptr<Motion> motion, const std::string& url, double rate_hz,
+                             double seconds) {
   const auto refuse = [&](const char* what, double value, const char* expected) {
     std::ostringstream message;
-    message << "demo:" << motion << ": " << what << " " << value << ": expected " << expected;
+    message << url << ": " << what << " " << value << ": expected " << expected;
     throw SourceError(message.str());
   };
   if (!(rate_hz > 0 && rate_hz <= kHighestRateHz))
     refuse("rate", rate_hz, "more than 0, at most 10000 Hz");
   if (!(seconds >= 0 && seconds <= 1e9)) refuse("duration", seconds, "0 (endless) to 1e9 s");
-  return std::make_unique<SubjectSource>(motion, rate_hz, seconds, height_m);
+  return std::make_unique<SubjectSource>(std::move(motion), url, rate_hz, seconds);
+}
+
+std::unique_ptr<Motion> MakePose(const WrittenPose& pose, double height_m) {
+  KINESCOPE_CHECK(height_m >= 0.5 && height_m <= 2.5);
+  return std::make_unique<BuiltInMotion>("Pose", height_m, [&](const urdf::Skeleton& skeleton) {
+    return MakeWrittenPose(skeleton, pose, *MakeGenerator(pose.base, skeleton));
+  });
+}
+
+}  // namespace
+
+const std::vector<std::string>& MotionNames() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names = {"lift", "walk"};
+    names.insert(names.end(), StaticPoseNames().begin(), StaticPoseNames().end());
+    return names;
+  }();
+  return kNames;
+}
+
+const std::vector<std::string>& StaticPoseNames() {
+  static const std::vector<std::string> kNames = {"n_pose", "t_pose", "squat", "overhead", "sit"};
+  return kNames;
+}
+
+std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m) {
+  KINESCOPE_CHECK(height_m >= 0.5 && height_m <= 2.5);
+  return std::make_unique<BuiltInMotion>("Demo", height_m, [&](const urdf::Skeleton& skeleton) {
+    return MakeGenerator(name, skeleton);
+  });
+}
+
+std::unique_ptr<Motion> MakePose(const std::string& text, double height_m) {
+  return MakePose(ParsePose(text), height_m);
+}
+
+std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds,
+                                    double height_m) {
+  return Open(MakeMotion(motion, height_m), "demo:" + motion, rate_hz, seconds);
+}
+
+std::unique_ptr<Source> OpenPose(const std::string& text, double rate_hz, double height_m) {
+  const WrittenPose pose = ParsePose(text);
+  return Open(MakePose(pose, height_m), "pose:" + pose.text, rate_hz, 0);
 }
 
 }  // namespace kinescope::subject

@@ -306,6 +306,31 @@ void WriteOptions(const fs::path& folder) {
   }
 }
 
+void WritePoses(const fs::path& folder) {
+  const std::pair<const char*, const char*> texts[] = {
+      {"base", "squat"},
+      {"folded", "t_pose,\n  right_elbow = 90,\n\tleft_knee=4.5e1 \n"},
+      {"joints",
+       "right_shoulder_abduction=150,right_shoulder_rotation=-30,l5_s1_lateral_bending=12"},
+      {"feet", "left_hip=90,left_knee=90,right_ankle=-40,right_ballfoot=-40,right_knee_rotation=5"},
+      {"place",
+       "sit,heading=-270,x=-99.5,y=.25,vertical_pelvis=20,vertical_pelvis_lateral_bending=-85"},
+      {"end_of_range", "right_elbow_abduction=90,left_elbow_rotation=-110,t1_c7=-60"},
+      {"out_of_range", "right_knee=1e308"},
+      {"not_finite", "right_knee=nan"},
+      {"no_number", "right_knee=9O,left_knee=-"},
+      {"nearest", "rigth_elbow=90"},
+      {"axis", "right_elbow_flexoin=90"},
+      {"twice", "left_wrist=9,left_wrist_flexion=9"},
+      {"base_last", "left_wrist=9,t_pose"},
+      {"motion", "walk"},
+      {"commas", ",,=,"},
+      {"signs", "x==1,=x=,="},
+      {"controls", "\x1b[2J=\xff\xfe"},
+  };
+  for (const auto& [name, text] : texts) Write(folder / name, text);
+}
+
 void WriteYaml(const fs::path& options, const fs::path& keys) {
   Write(options / "case",
         "source: demo:lift\ntime: 2.5\nstate: no data\ncamera: front\nsize: 640x360\n"
@@ -509,6 +534,7 @@ int main(int argc, char** argv) {
   WriteMarkers(folder / "marker");
   WriteLoads(folder / "loads");
   WriteOptions(folder / "options");
+  WritePoses(folder / "pose");
   WriteYaml(folder / "yaml_options", folder / "camera_keys");
   return 0;
 }

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -24,6 +25,8 @@
 #include "tests/system/run_program.h"
 #include "tests/taken_port.h"
 #include "tests/temp_folder.h"
+#include "urdf/anatomical_limits.h"
+#include "urdf/segments.h"
 
 namespace kinescope {
 namespace {
@@ -215,6 +218,34 @@ std::string DocumentedMembers(const std::string& command) {
     if (line.compare(0, begin.size(), begin) == 0) return line.substr(line.find('|', begin.size()));
   }
   return "";
+}
+
+// The last cells of "| `right_knee`, `left_knee` | -20 to 170 | shank outwards, -25 to 25 | ... |".
+TEST(Command, DocumentsTheRangesOfWrittenPoses) {
+  std::ifstream document(std::string(KINESCOPE_DOCS) + "/pose.md");
+  const std::regex name("`([a-z0-9_]+)`"), range("(-?[0-9]+) to (-?[0-9]+)");
+  std::set<int> documented;
+  for (std::string line; std::getline(document, line);) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, '|');) cells.push_back(cell);
+    if (cells.size() != 5) continue;
+    for (std::sregex_iterator at(cells[1].begin(), cells[1].end(), name), end; at != end; ++at) {
+      for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+        if (urdf::kJoints[urdf::At(joint)].ros_name != (*at)[1].str()) continue;
+        documented.insert(joint);
+        const std::size_t cell_of_axis[] = {3, 4, 2};
+        for (int axis = 0; axis < 3; ++axis) {
+          std::smatch found;
+          ASSERT_TRUE(std::regex_search(cells[cell_of_axis[axis]], found, range)) << line;
+          const urdf::AngleRange actual = urdf::AnatomicalRangeOf(joint, axis);
+          EXPECT_NEAR(std::stod(found[1]), actual.lower, 0.5) << line;
+          EXPECT_NEAR(std::stod(found[2]), actual.upper, 0.5) << line;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(documented.size(), std::size_t{urdf::kJointCount});
 }
 
 TEST(Command, PrintsOneDocumentedJsonObjectPerLine) {

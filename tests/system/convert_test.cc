@@ -231,6 +231,34 @@ TEST(Convert, WritesTheValuesOfTheSamplesIntoATableWithUnits) {
   EXPECT_EQ(table.At(1, "provenance"), "");
 }
 
+// What is written in a pose is what the table prints: all 66 angles, by the names of the columns.
+TEST(Convert, PrintsTheAnglesOfAWrittenPose) {
+  const TempFolder folder;
+  const std::string path = folder / "pose.csv";
+  std::map<std::string, double> written;  // by column
+  std::string pose;
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    const std::string name(urdf::kJoints[urdf::At(joint)].ros_name);
+    const bool is_trunk = joint <= urdf::jC1Head;
+    double degrees = 4 + joint % 3;
+    for (const char* axis : {is_trunk ? "lateral_bending" : "abduction",
+                             is_trunk ? "axial_rotation" : "rotation", "flexion"}) {
+      pose += fmt::format("{}{}_{}={}", pose.empty() ? "pose:" : ", ", name, axis, degrees);
+      written[fmt::format("{}_angle_zxy_{}_deg", name, axis)] = degrees;
+      degrees += 7.5;
+    }
+  }
+  ASSERT_EQ(written.size(), 66U);
+  ASSERT_EQ(Convert({pose, "--quantities", "angles", "--seconds", "0.1", "--out", path}).exit_code,
+            0);
+  const CsvTable table(ReadFile(path));
+  for (const std::size_t row : {std::size_t{0}, table.rows.size() - 1}) {
+    for (const auto& [column, degrees] : written) {
+      EXPECT_NEAR(table.Number(row, column), degrees, 1e-6) << column;
+    }
+  }
+}
+
 TEST(Convert, HasTheLoadsOfTheLoadsCommand) {
   const TempFolder folder;
   const std::string motion = folder / "motion.csv", loads = folder / "loads.csv";

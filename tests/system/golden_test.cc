@@ -432,6 +432,17 @@ TEST_F(GoldenMutation, OfAPoseIsNamed) {
   ExpectTold("objects moved by up to ");
 }
 
+TEST_F(GoldenMutation, OfAnArmBentByThreeDegreesMoreIsNamed) {
+  WriteCase("bend", "source: pose:right_elbow=90\ncamera: 0.2,-1.8,1.2:0.2,0,1.1\n");
+  ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
+  EXPECT_EQ(Check({"--strict"}).exit_code, 0) << "a written pose stands still";
+  ChangeInCase("right_elbow=90", "right_elbow=93");
+  ExpectTold("right_wrist: moved by ");
+  ExpectTold("source: was pose:right_elbow=90, is pose:right_elbow=93");
+  ExpectTold(
+      "input source: pose:right_elbow=93 was not read before; pose:right_elbow=90 is not read");
+}
+
 TEST_F(GoldenMutation, OfTheFloorIsNamed) {
   AddToCase("floor: off");
   ExpectTold("floor: expected a floor, found none");

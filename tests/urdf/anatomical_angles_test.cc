@@ -65,6 +65,19 @@ TEST(AnatomicalAngles, OfAnArmStretchedSidewaysHaveNoTwist) {
   EXPECT_NEAR((hips[jLeftHip] - Vector3d(0, 0, 90)).norm(), 0, 1e-6);
 }
 
+TEST(AnatomicalAngles, AreThoseOfTheRotationMadeOfThem) {
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    for (const Vector3d& written :
+         {Vector3d(0, 0, 0), Vector3d(20, -50, 110), Vector3d(-89, 170, -3)}) {
+      SegmentOrientations body = NPose();
+      const std::size_t child = At(ChildOf(joint));
+      body[child] = body[At(ParentOf(joint))] * RotationOfJoint(joint, written);
+      const Vector3d read = AnatomicalAngles(body, AngleSequence::kZxy)[At(joint)];
+      EXPECT_NEAR((read - written).norm(), 0, 1e-9) << kJoints[At(joint)].ros_name;
+    }
+  }
+}
+
 // The numbers of every <tag>...</tag> within a motion frame of the document.
 Table FramesOf(const std::string& document, const std::string& tag) {
   Table frames;

@@ -84,7 +84,8 @@ struct ConvertOptions {
     option("quantities", quantities, "what the table has; default: all that the source has");
     option.Group("Motion");
     option("seconds", seconds,
-           "length of the motion to convert; default: all (demo: 10 s; a stream: until Ctrl-C)");
+           "length of the motion to convert; default: all (demo: and pose: 10 s; a stream: until "
+           "Ctrl-C)");
     option("rate_hz", rate_hz, "sample rate of the built-in subject");
     person.List(option);
     loads.List(option);
@@ -96,8 +97,9 @@ struct ConvertOptions {
       option.HasNoEffect(name, "with a live stream, whose sensors come over ROS",
                          [this] { return IsLiveUrl(*source); });
     }
-    option.HasNoEffect("rate_hz",
-                       "with a source other than demo:", [this] { return !IsSubjectUrl(*source); });
+    option.HasNoEffect("rate_hz", "with a source other than demo: and pose:", [this] {
+      return !IsSubjectUrl(*source);
+    });
   }
 
   bool HasTable() const {

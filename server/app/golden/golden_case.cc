@@ -203,7 +203,8 @@ GoldenCase::GoldenCase()
 }
 
 void GoldenCase::List(options::OptionList& option) {
-  option("source", source, "recording, relative to the case, or demo:MOTION");
+  option("source", source,
+         "recording, relative to the case, demo:MOTION, or pose:ANGLES (docs/pose.md)");
   option("time", time, "time after the first sample");
   option("seconds", seconds, "of a clip, which begins at that time: its length");
   option("fps", fps, "of a clip: its frame rate, pictures per second");

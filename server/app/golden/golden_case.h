@@ -1,6 +1,6 @@
 /// One golden case: what to draw, as `golden_images/<name>.yaml` says it, and the drawing of it.
 ///
-///     source: demo:lift       # or a file, relative to the case
+///     source: demo:lift       # or pose:right_elbow=90, or a file, relative to the case
 ///     time: 2.5               # s after the first sample
 ///     seconds: 2              # a clip: its length
 ///     state: live             # live | stale | no data

@@ -94,7 +94,9 @@ class PictureCheck {
     CompareFacts(accepted.facts, now.facts);
     AddObjectLayer(accepted);
     for (const std::string& change : verdict_.changes.inputs) {
-      verdict_.findings.push_back({FindingKind::kInput, "input", "", "", 0, "input " + change});
+      const std::string text = "input " + change;
+      const std::string object = text.substr(0, text.find(':'));  // "input source"
+      verdict_.findings.push_back({FindingKind::kInput, object, "", "", 0, text});
     }
     CheckDrawing();
     const std::optional<render::Image> picture = ReadAccepted(accepted);

@@ -21,7 +21,7 @@ namespace kinescope::app {
 struct InputFact {
   std::string option;  // "source", "wrenches", ...
   std::string name;    // without its folder; "demo:lift"
-  std::string sha256;  // "": generated motion, which the program makes
+  std::string sha256;  // "": generated motion or a written pose, which the program makes
 
   bool operator==(const InputFact& other) const {
     return option == other.option && name == other.name && sha256 == other.sha256;

@@ -203,6 +203,10 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
       report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
       report.format = "built-in subject";
       break;
+    case SourceKind::kPose:
+      report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
+      report.format = "written pose";
+      break;
     case SourceKind::kGraph:
       report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
       report.format = "ROS graph";

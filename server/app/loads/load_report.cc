@@ -58,7 +58,9 @@ void CheckReportName(const std::string& path) {
 ReportOrigin OriginOf(const std::string& source, const SourceIdentity& identity,
                       const options::OptionList& options) {
   ReportOrigin origin;
-  if (IsSubjectUrl(source)) {
+  if (KindOfSource(source) == SourceKind::kPose) {
+    origin.digest = "written pose, no file";
+  } else if (IsSubjectUrl(source)) {
     origin.digest = "generated motion, no file";
   } else if (identity.digest) {
     origin.digest =

@@ -19,7 +19,7 @@ namespace kinescope::app {
 
 /// Data that are the same for all people of a recording.
 struct TrialContext {
-  std::string source;  // its file name, or "demo:lift"
+  std::string source;  // its file name, or "demo:lift", "pose:right_elbow=90"
   double rate_hz = 0;  // 0: unknown
   SceneOptions scene;
   nlohmann::json options;  // option values of this run, by name

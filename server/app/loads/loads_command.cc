@@ -70,7 +70,7 @@ struct LoadsOptions {
         "marks", marks,
         "file of marks (--marks_file of serve): table, JSON, plots and report show them with the "
         "highest loads around them");
-    option("seconds", seconds, "length of the motion to read; default: all (demo: 8 s)");
+    option("seconds", seconds, "length of the motion to read; default: all (demo: and pose: 8 s)");
     person.List(option);
     loads.List(option);
     option.Group("Drawing");

@@ -111,7 +111,7 @@ ClipOptions::ClipOptions()
 void ClipOptions::List(options::OptionList& option) {
   option("fps", fps, "frame rate, pictures per second");
   option("start", start, "time after the first sample at which the clip begins");
-  option("seconds", seconds, "length of the clip; default: to the end (demo: 10 s)");
+  option("seconds", seconds, "length of the clip; default: to the end (demo: and pose: 10 s)");
   option("end", end, "time after the first sample at which the clip ends, in place of --seconds");
 }
 

@@ -157,7 +157,7 @@ FeedSettings ToFeed(const StreamOptions& o) {
   }
   if (o.rate_hz && !IsSubjectUrl(*o.source)) {
     throw UsageError(fmt::format(
-        "--rate_hz={}: only the built-in subject (demo:) has a free rate, not '{}'; use "
+        "--rate_hz={}: only the built-in subject (demo:, pose:) has a free rate, not '{}'; use "
         "--stream_hz to send fewer samples",
         *o.rate_hz, *o.source));
   }

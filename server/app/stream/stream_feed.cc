@@ -64,7 +64,7 @@ std::unique_ptr<Feed> OpenFeed(const FeedSettings& settings) {
     throw UsageError(std::string(settings.gloves ? "--gloves" : "--props") + ": '" +
                      settings.source +
                      "' contains datagrams, which are forwarded unchanged; gloves and props can be "
-                     "added only to MVNX, ROS bags and demo:");
+                     "added only to MVNX, ROS bags, demo: and pose:");
   }
   if (datagrams->is_live() && settings.speed != 1) {
     throw UsageError("--speed: '" + settings.source +

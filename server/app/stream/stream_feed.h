@@ -17,7 +17,7 @@ namespace kinescope::app {
 
 struct FeedSettings {
   std::string source;
-  double rate_hz = 0;  // samples per second of `demo:`
+  double rate_hz = 0;  // samples per second of `demo:` and `pose:`
   int characters = 1;  // copies of each character, side by side
   std::optional<mvn::TypeSet>
       types;             // absent: the usual ones with 12 and 13, or all that a source has

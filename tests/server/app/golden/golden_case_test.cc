@@ -101,6 +101,33 @@ TEST_F(GoldenCaseFile, HasAllItsFilesBesideIt) {
   EXPECT_EQ(Load("source: demo:lift\nghost: demo:lift@1\n").view.ghost->source, "demo:lift");
 }
 
+// A long one is folded, or keeps its line breaks; it is no file beside the case.
+TEST_F(GoldenCaseFile, HasAWrittenPose) {
+  for (const std::string source :
+       {"pose:right_elbow=90,left_knee=45", "'pose: right_elbow=90, left_knee=45'",
+        ">\n  pose:\n  right_elbow=90,\n  left_knee=45",
+        "|\n  pose:\n  right_elbow=90,\n  left_knee=45"}) {
+    const GoldenCase golden_case =
+        Load("source: " + source + "\nghost: pose:t_pose,x=1@0\nsize: 16x16\n");
+    EXPECT_EQ(golden_case.source->substr(0, 5), "pose:") << source;
+    EXPECT_EQ(golden_case.view.ghost->source, "pose:t_pose,x=1");
+    double flexion = 0, ghost_x = 0;
+    kinescope::testing::FakeRenderer renderer(
+        [&](const auto&, const SceneState& state, const auto&, const auto&) {
+          const auto angles = urdf::AnatomicalAngles(OrientationsOf(state.people.at(0).sample),
+                                                     urdf::AngleSequence::kZxy);
+          flexion = angles[urdf::jRightElbow].z();
+          ghost_x = state.ghosts.at(0).person.links[urdf::kPelvis].position.x();
+        });
+    Draw(golden_case, renderer);
+    EXPECT_NEAR(flexion, 90, 1e-6) << source;
+    EXPECT_NEAR(ghost_x, 1, 1e-6) << source;
+    EXPECT_THAT(InputsOf(golden_case), ::testing::SizeIs(1)) << "no file is read";
+    EXPECT_EQ(InputsOf(golden_case).front().name, "pose:right_elbow=90,left_knee=45");
+    EXPECT_EQ(InputsOf(golden_case).front().sha256, "");
+  }
+}
+
 TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nghost: demo:lift@1\nbody_model: primitive\nsize: 16x16\n");
