@@ -5,8 +5,9 @@ import { THEMES } from './theme.js';
 
 /** @typedef {{micros: number|null, place: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
  *    window: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
- *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning; person: character; joints: that are plotted; camera: name,
- *    or place (orbit.js); window: time that the plots show, s. Null otherwise: as the page has it by itself */
+ *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning;
+ *    person: character; joints: that are plotted; camera: name, or place (orbit.js); window: time that the plots show,
+ *    s. Null otherwise: as the page has it by itself */
 
 const JOINT = /^[a-z0-9_]{1,40}$/, NAME = /^[a-z_]{1,40}$/, MOST_JOINTS = 15;
 
