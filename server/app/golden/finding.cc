@@ -20,10 +20,6 @@ constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding
 constexpr double kMetresLimit = 0.002, kDegreesLimit = 0.05;
 
-constexpr std::array<const char*, 14> kKindNames = {
-    "picture", "class",  "missing", "new",     "text",  "input",     "load",
-    "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
-
 double Degrees(double radians) { return radians * 180 / M_PI; }
 
 std::string ClassText(LoadClass load_class) {
