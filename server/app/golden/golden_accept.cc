@@ -95,7 +95,9 @@ class Accepting {
     if (settings_.takes_other_environment) return;
     for (const auto& [name, accepted] : suite_.lock) {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
-      if (changes.environment.empty()) continue;
+      const bool is_alike = accepted.environment.count("browser") ==
+                            drawn.now->environment.count("browser");  // scenes or pages
+      if (!is_alike || changes.environment.empty()) continue;
       throw std::runtime_error(
           fmt::format("was drawn in another environment than {} ({}); draw it there, or take it "
                       "with --other_environment",

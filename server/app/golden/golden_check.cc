@@ -47,6 +47,12 @@ CaseVerdict VerdictOf(const GoldenSuite& suite, const FoundCase& found,
   return verdict;
 }
 
+std::vector<Mask> MasksOf(const GoldenCase& golden_case, const GoldenDrawing& drawing) {
+  std::vector<Mask> masks = *golden_case.masks;
+  masks.insert(masks.end(), drawing.masks.begin(), drawing.masks.end());
+  return masks;
+}
+
 // Of one picture.
 class PictureCheck {
  public:
@@ -56,8 +62,10 @@ class PictureCheck {
         found_(found),
         settings_(settings),
         drawing_(std::move(drawing)),
+        masks_(MasksOf(*found.read, drawing_)),
         verdict_(VerdictOf(suite, found, drawing_.frame)) {
-    CheckMasks(*found.read->masks, drawing_.image.width, drawing_.image.height);
+    CheckMasks(masks_, drawing_.image.width, drawing_.image.height);
+    for (const Mask& mask : drawing_.masks) verdict_.masks.push_back(mask.box);
     verdict_.now = Describe(*found.read, drawing_, environment);
   }
 
@@ -122,7 +130,7 @@ class PictureCheck {
     verdict_.findings = kinescope::app::Compare(expected, actual, read.limits->place_px);
     const auto is_hidden = [&](const GoldenFinding& finding) {
       return finding.kind != FindingKind::kClass && finding.kind != FindingKind::kLoad &&
-             finding.x_px && IsMasked(*read.masks, *finding.x_px, *finding.y_px);
+             finding.x_px && IsMasked(masks_, *finding.x_px, *finding.y_px);
     };
     auto& findings = verdict_.findings;
     findings.erase(std::remove_if(findings.begin(), findings.end(), is_hidden), findings.end());
@@ -272,9 +280,9 @@ class PictureCheck {
 
   void FindDifferenceFrom(const render::Image& picture) {
     render::Image unmasked = drawing_.image;
-    CopyMasked(*found_.read->masks, picture, unmasked);
+    CopyMasked(masks_, picture, unmasked);
     difference_ = render::FindDifference(picture, unmasked, found_.read->limits->picture);
-    for (const Mask& mask : *found_.read->masks) {
+    for (const Mask& mask : masks_) {
       const std::int64_t hidden = DifferentPixels(mask, picture, drawing_.image);
       if (hidden == 0) continue;
       verdict_.notes.push_back(fmt::format("mask {} hides {} that {} ({})", ToText(mask.box),
@@ -333,6 +341,7 @@ class PictureCheck {
   const FoundCase& found_;
   const CheckSettings& settings_;
   const GoldenDrawing drawing_;
+  const std::vector<Mask> masks_;
   render::PictureDifference difference_;
   CaseVerdict verdict_;
 };
@@ -401,14 +410,15 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
                       const std::map<std::string, std::string>& environment) {
   AcceptedCase described;
   described.pixels_sha256 = PixelsHash(drawing.image);
-  if (!golden_case.masks->empty()) {
-    described.unmasked_sha256 = PixelsHash(WithoutMasked(*golden_case.masks, drawing.image));
+  const std::vector<Mask> masks = MasksOf(golden_case, drawing);
+  if (!masks.empty()) {
+    described.unmasked_sha256 = PixelsHash(WithoutMasked(masks, drawing.image));
   }
   described.width = drawing.image.width;
   described.height = drawing.image.height;
   described.options = golden_case.given;
   described.inputs = InputsOf(golden_case);
-  described.environment = environment;
+  described.environment = drawing.environment.empty() ? environment : drawing.environment;
   described.facts = drawing.facts;
   return described;
 }
