@@ -4,8 +4,8 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# What has been compiled once is not compiled again: by another preset, in another clone. (The two leniences are what ccache
-# needs to know a precompiled header again.)
+# What has been compiled once in a folder is not compiled again there, after a change of branch for one. (The two leniences are
+# what ccache needs to know a precompiled header again.)
 find_program(KINESCOPE_CCACHE ccache)
 if(KINESCOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
@@ -23,6 +23,10 @@ add_library(kinescope_strict INTERFACE)
 add_library(kinescope::strict ALIAS kinescope_strict)
 target_compile_options(kinescope_strict INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+
+# Pictures have the same bytes on processors of all makes: Eigen's fast square root begins with an estimate that each make
+# has of its own (RSQRTPS). tests/exact_arithmetic_test.py
+target_compile_definitions(kinescope_strict INTERFACE EIGEN_FAST_MATH=0)
 
 if(CMAKE_UNITY_BUILD)
   # In a batch GCC takes a source for a header, whose types nobody may hide in an anonymous namespace.

@@ -11,6 +11,7 @@
 #include "core/body_sample.h"
 #include "core/duration_histogram.h"
 #include "core/playback.h"
+#include "core/system/clocks.h"
 
 namespace kinescope {
 
@@ -73,6 +74,10 @@ class Source {
   /// Samples per second as the source states it (a file, the subject); 0 if only the receive times
   /// show it.
   virtual double nominal_rate_hz() const { return 0; }
+
+  /// The moment up to which it has been read, monotonic clock: now, unless its samples come faster
+  /// than they were measured.
+  virtual std::int64_t now_nanos() const { return MonotonicNanos(); }
 
   /// Of a source that is played at its true rate, once its first sample has been delivered: when it
   /// began, and the time of a round once that is known.

@@ -3,10 +3,11 @@
 import { LAYOUTS } from './layout.js';
 import { THEMES } from './theme.js';
 
-/** @typedef {{micros: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
+/** @typedef {{micros: number|null, place: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
  *    window: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
- *    micros: the moment of a viewer who looks back, null: live; person: character; joints: that are plotted; camera: name,
- *    or place (orbit.js); window: time that the plots show, s. Null otherwise: as the page has it by itself */
+ *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning;
+ *    person: character; joints: that are plotted; camera: name, or place (orbit.js); window: time that the plots show,
+ *    s. Null otherwise: as the page has it by itself */
 
 const JOINT = /^[a-z0-9_]{1,40}$/, NAME = /^[a-z_]{1,40}$/, MOST_JOINTS = 15;
 
@@ -19,11 +20,12 @@ const numberOf = (text) => (text === null || text.trim() === '' || !Number.isFin
  *  @returns {Shown} */
 export function shownIn(url) {
   const of = (/** @type {string} */ name) => url.searchParams.get(name);
-  const seconds = numberOf(of('t')), person = numberOf(of('person')), window = numberOf(of('window'));
+  const seconds = numberOf(of('t')), place = numberOf(of('at')), person = numberOf(of('person')), window = numberOf(of('window'));
   const joints = (of('joint') ?? '').split(',').filter((name) => JOINT.test(name)).slice(0, MOST_JOINTS);
   const camera = of('camera') ?? '', tab = of('tab') ?? '';
   return {
     micros: seconds !== null && seconds >= 0 ? 1e6 * seconds : null,
+    place: place !== null && place >= 0 ? place : null,
     person: person !== null && Number.isInteger(person) ? person : null,
     joints: joints.length > 0 ? joints : null,
     camera: NAME.test(camera) || /^[-\d.,]{1,120}$/.test(camera) ? camera : null,
@@ -34,17 +36,18 @@ export function shownIn(url) {
   };
 }
 
-/** The moment is rounded up to microseconds, so that the sample that is shown is not after it. What `changes` does not
+/** Moments are rounded up, those of recordings to milliseconds, so that the sample that is shown is not after them. What `changes` does not
  *  name stays.
  *  @param {URL} url
  *  @param {Partial<Shown>} changes
  *  @returns {URL} */
 export function withShown(url, changes) {
   const next = new URL(url);
-  const { micros, joints } = changes;
+  const { micros, place, joints } = changes;
   /** @type {Record<string, string|number|null|undefined>} */
   const texts = {
     t: micros === undefined || micros === null ? micros : (Math.ceil(micros) / 1e6).toFixed(6),
+    at: place === undefined || place === null ? place : String(Math.ceil(1000 * place - 1e-6) / 1000),
     person: changes.person, joint: joints === undefined || joints === null ? joints : joints.join(), camera: changes.camera,
     tab: changes.tab, window: changes.window, view: changes.view, theme: changes.theme,
   };

@@ -31,6 +31,9 @@ export class Alarms {
    *  @returns {boolean} */
   get isKnown() { return this.#state !== null; }
 
+  /** Whether what the server has told is here, the log included. */
+  get isComplete() { return this.isKnown && this.#wanted === this.#loaded; }
+
   /** Highest priority first; those that are not acknowledged before the others.
    *  @returns {Alarm[]} */
   get shown() {

@@ -43,6 +43,7 @@ const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
+const SETTLED_MILLIS = 700;  // longer than any part of the page takes to show what has come
 
 const elements = findElements(document);
 
@@ -51,6 +52,8 @@ let stateChangedAt = 0;  // browser clock, last time its number grew
 let model = null;
 let modelAskedAt = -Infinity;
 let classLimits = '';  // as they are shown
+let hasDiagnostics = false;
+let unsettledAt = 0;  // browser clock, last time that something was still to come
 let notice = { text: '', until: 0 };
 const linked = shownIn(new URL(location.href));
 theme?.choose(linked.theme);
@@ -60,7 +63,7 @@ const person = new ChosenPerson();
 person.choose(linked.person);
 const shown = new Shown({
   send: (command) => connection.send(command), notice: showNotice, changed: onTimeChanged, arrived: updateScene,
-}, linked.micros);
+}, linked);
 forgetToken();
 const latencies = new RecentValues();
 
@@ -139,7 +142,7 @@ layout.follow((name) => {
 addEventListener('resize', () => tabs.settle());  // a wide page has the plots beside the others, without a tab
 if (linked.tab) tabs.choose(linked.tab);
 scene?.setControls(layout.hasControls);
-const copyLink = mountLinkButton(elements['copy-link'], () => ({ ...addressNow(), micros: shown.state?.madeMicros ?? null }), showNotice);
+const copyLink = mountLinkButton(elements['copy-link'], () => ({ ...addressNow(), ...shown.link }), showNotice);
 addKeys();
 const lists = [elements['hand-person'], elements['control-person']];
 person.follow(() => {
@@ -242,9 +245,14 @@ function takeNewest(now) {
   const state = shown.newest, isNew = state?.stateNumber !== before;
   if (isNew) stateChangedAt = now;
   if (shown.isNewest) updateScene();
-  const bodies = state ? [...state.people, ...state.ghosts] : [];
-  if (model === null || bodies.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
+  if (lacksModelOf(state)) loadModel(now);
   return isNew;
+}
+
+/** @param {import('./state_codec.js').State|null} state */
+function lacksModelOf(state) {
+  const bodies = state ? [...state.people, ...state.ghosts] : [];
+  return model === null || bodies.some((person) => scene && !scene.hasModelOf(person));
 }
 
 /** Whether what is shown is of now, or was when it was the newest. */
@@ -344,6 +352,7 @@ async function loadDiagnostics() {
   if (document.hidden) return;
   try {
     const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
+    hasDiagnostics = diagnostics !== null;
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? [], scene?.problems));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
@@ -419,6 +428,18 @@ function showReadings() {
   setText('source', shown.details.source);
   elements['loads-shown'].hidden = !scene?.hasSkins;  // without a skin there is nothing to choose
   showPeople(wasFresh());
+  showSettled(now);
+}
+
+/** Programs that take a picture of the page wait for this attribute: the page shows a moment of the past, and all of it.
+ *  @param {number} now */
+function showSettled(now) {
+  const { marks_revision: marksRevision } = shown.newestDetails, { surroundings } = shown.details;
+  const isAtRest = connection.connected && now >= notice.until && shown.isAtRest && !lacksModelOf(shown.state) && cameras.isKnown
+    && scene?.isAtRest(surroundings) !== false && charts.isComplete && marks.isAt(marksRevision) && alarms.isComplete
+    && controls.isComplete && stream.isKnown && hasDiagnostics && elements.role.dataset.role !== undefined;
+  if (!isAtRest) unsettledAt = now;
+  document.body.toggleAttribute('data-settled', now - unsettledAt >= SETTLED_MILLIS);
 }
 
 /** @param {import('./status.js').Status} status

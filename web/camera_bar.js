@@ -39,6 +39,11 @@ export class CameraBar {
     return this.scene.placeText ?? (this.#name === START_VIEW ? null : this.#name);
   }
 
+  /** Whether the server has told them. */
+  get isKnown() {
+    return this.#cameras.length > 0;
+  }
+
   /** A reconnection keeps the camera that the viewer has.
    *  @param {import('./messages.js').Cameras} answer */
   setCameras({ cameras, framing, live }) {

@@ -36,6 +36,11 @@ export class Charts {
     }, page.canPress ? (name) => this.plots.toggle(name) : null);
   }
 
+  /** Whether strip and plots show all that there is. */
+  get isComplete() {
+    return this.#feed.isComplete;
+  }
+
   /** The worst classes at a moment in words.
    *  @param {number} millis */
   wordsAt(millis) {

@@ -69,6 +69,11 @@ export class Controls {
     this.#load();
   }
 
+  /** Whether what the server has told is shown, the list of files included. */
+  get isComplete() {
+    return this.#state !== null && !this.#isLoading && this.#files?.revision === this.#state.files_revision;
+  }
+
   /** After another person was chosen. */
   refresh() {
     this.#show();

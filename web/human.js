@@ -88,6 +88,7 @@ const hasGeometry = (part) => part instanceof THREE.Mesh || part instanceof THRE
 export class Human {
   group = new THREE.Group();
   /** @type {string[]} */ failedMeshes = [];
+  #loading = 0;  // meshes and skins under way
   #skin = /** @type {SkinnedBody|null} */ (null);
   #isDisposed = false;
   #look;
@@ -154,6 +155,11 @@ export class Human {
     this.#look = look;
   }
 
+  /** Whether nothing of the body is still to be loaded. */
+  get isComplete() {
+    return this.#loading === 0;
+  }
+
   get hasSkin() {
     return this.#skin !== null;
   }
@@ -177,6 +183,7 @@ export class Human {
   /** @param {string} url  an absolute path; the page may be served below another path
    *  @param {() => void} onChange */
   async #loadSkin(url, onChange) {
+    ++this.#loading;
     try {
       const answer = await request(url.slice(1));
       const skin = readSkin(await answer.arrayBuffer(), url);
@@ -189,6 +196,8 @@ export class Human {
       this.group.add(this.#skin.group);
     } catch {
       this.failedMeshes.push(url);
+    } finally {
+      --this.#loading;
     }
     onChange();
   }
@@ -312,15 +321,18 @@ export class Human {
     };
     if (visual.kind !== 'mesh' || !visual.mesh) return put(primitive(visual));
     part.scale.fromArray(visual.size);
+    ++this.#loading;
     // The server sends an absolute path; the page may be served below another path.
     new STLLoader().load(visual.mesh.slice(1), (geometry) => {
       put(toCreasedNormals(geometry, CREASE));
+      --this.#loading;
       onChange();
     }, undefined, () => {
       // A missing mesh is replaced by a small sphere at its link and reported by name.
       part.scale.setScalar(1);
       put(new THREE.SphereGeometry(0.04, 16, 12));
       this.failedMeshes.push(/** @type {string} */ (visual.mesh));
+      --this.#loading;
       onChange();
     });
   }

@@ -65,6 +65,11 @@ export class LookBack {
     this.#leastMillis = Infinity;
   }
 
+  /** Whether no answer is under way. */
+  get isIdle() {
+    return this.#asked === null;
+  }
+
   get #isForRun() {
     return this.#asked !== null && 'until_micros' in this.#asked;
   }

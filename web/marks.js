@@ -54,6 +54,11 @@ export class Marks {
     return this.list().filter((mark) => mark.is_open && mark.button === button && this.isOfThisRun(mark)).at(-1) ?? null;
   }
 
+  /** @param {number|null} revision  of the server; null: it has no marks */
+  isAt(revision) {
+    return revision === null || (revision === this.#revision && !this.#isLoading);
+  }
+
   /** Loads what has changed; call it several times a second with the server's revision.
    *  @param {number} revision
    *  @param {number} now  browser's clock, ms

@@ -48,6 +48,11 @@ export class People {
     return this.#people.get(character)?.human.revision === revision;
   }
 
+  /** Whether nothing of the bodies is still to be loaded. */
+  get isComplete() {
+    return [...this.#people.values()].every(({ human }) => human.isComplete);
+  }
+
   /** Before they are drawn.
    *  @param {THREE.WebGLRenderer} renderer */
   pose(renderer) {

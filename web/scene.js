@@ -21,6 +21,7 @@ const FRAMES_MEASURED = 24;
 const HEAD = 6;  // number of its link
 const HEAD_TOP = 0.3;  // m above its joint, with some air
 const DISTANCES = { least: 0.6, most: 30 };  // m, from the target
+const LEAST_STEP = 1e-5;  // m
 
 export class Scene {
   #scene = new THREE.Scene();
@@ -43,6 +44,8 @@ export class Scene {
   // What the view shows; null: no person came yet.
   #room = /** @type {import('./held_room.js').ViewRoom|null} */ (null);
   #followed = [0, 0, 0];
+  #isFollowing = false;
+  #stillness = matchMedia('(prefers-reduced-motion: reduce)');  // the view then goes at once where it is to be
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
   #framing = /** @type {import('./messages.js').Framing|null} */ (null);
   /** @type {{character: number, position: number[]}[]} */ #heads = [];
@@ -241,6 +244,13 @@ export class Scene {
     });
   }
 
+  /** Whether it stays as it is drawn until another state comes.
+   *  @param {number|null} surroundings  revision of those that are to be shown */
+  isAtRest(surroundings) {
+    const isDrawn = !this.#isSeen || (!this.#dirty && !this.#isFollowing);
+    return isDrawn && this.#people.isComplete && this.#ghosts.isComplete && this.#surroundings.isAt(surroundings);
+  }
+
   /** Draws the view if anything has changed since the last call.
    *  @param {number} now  time of requestAnimationFrame, ms
    *  @returns {boolean} whether it drew */
@@ -288,9 +298,14 @@ export class Scene {
 
   /** @param {number} seconds  since the last frame */
   #follow(seconds) {
-    const share = 1 - Math.exp(-Math.min(seconds, 1) / FOLLOW_SECONDS);
+    const share = this.#stillness.matches ? 1 : 1 - Math.exp(-Math.min(seconds, 1) / FOLLOW_SECONDS);
     const step = this.#ground.middle.map((v, i) => share * (v - this.#followed[i]));
-    if (Math.hypot(...step) < 1e-5) return;
+    this.#isFollowing = Math.hypot(...step) >= LEAST_STEP;
+    if (!this.#isFollowing) return;
+    if (share === 1 && this.#view !== null) {
+      this.#followed = this.#ground.middle;
+      return this.#aim();
+    }
     this.#followed = this.#followed.map((v, i) => v + step[i]);
     const shift = new THREE.Vector3().fromArray(step);
     this.#camera.position.add(shift);

@@ -167,6 +167,7 @@ const RETRY_MILLIS = 3000;  // after a rejection
 
 /** Asks for what series lack, in rounds: a request for each of them, and the next round when all answers have come. */
 export class Feed {
+  isComplete = false;  // whether nothing was missing at the last update
   #isAsking = false;
   #next = -Infinity;  // when the next round may begin, ms
   /** @type {WeakMap<Series, number>} */ #retryAt = new WeakMap();  // after a rejection, ms
@@ -188,7 +189,8 @@ export class Feed {
       const span = (this.#retryAt.get(series) ?? -Infinity) <= now ? series.missing(from, to, newest) : null;
       return span === null ? [] : [{ series, span }];
     });
-    if (round.length === 0) return '';
+    this.isComplete = round.length === 0;
+    if (this.isComplete) return '';
     this.#isAsking = true;
     this.#next = now + Math.max(REST_MILLIS, REST_MILLIS_EACH * round.length);
     const reasons = await Promise.all(round.map(({ series, span }) => this.#load(series, span, newest, now)));

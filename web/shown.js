@@ -4,11 +4,14 @@ import { HeldRun } from './held_run.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
 import { messageOf } from './server_api.js';
+import { placeIn } from './status.js';
 import { ViewerTime } from './viewer_time.js';
 
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
 /** Between two of the newest states that a viewer who looks back is sent; with some delay. */
 const FEW_STATES_MILLIS = 300;
+/** Less than samples are apart, and more than a place in an address is rounded: it is that of its sample. */
+const SAME_SAMPLE_MICROS = 1500;
 
 /** @typedef {import('./state_codec.js').State} State
  *  @typedef {import('./state_codec.js').FormerState} FormerState
@@ -37,15 +40,16 @@ export class Shown {
   #askedMicros = NaN;  // of the moment last asked for
   /** @type {{by: number, from: State}|null} */ #step = null;  // under way
   #addressAt = 0;
-  /** @type {number|null} */ #linkedMicros;
+  /** @type {{micros: number|null, place: number|null}} */ #linked;
   /** @type {Page} */ #page;
   /** @type {LookBack} */ #lookBack;
 
   /** @param {Page} page
-   *  @param {number|null} linkedMicros  the moment of the address with which the page was opened; null: none */
-  constructor(page, linkedMicros) {
+   *  @param {{micros: number|null, place: number|null}} linked  the moment of the address with which the page was opened, of
+   *    the server's clock or in a recording, s; null: none */
+  constructor(page, { micros, place }) {
     this.#page = page;
-    this.#linkedMicros = linkedMicros;
+    this.#linked = { micros, place };
     this.#lookBack = new LookBack(page.send);
   }
 
@@ -53,12 +57,13 @@ export class Shown {
   setNewest(state) {
     this.#newest = state;
     this.#newestAt = performance.now();
-    if (this.#linkedMicros !== null) this.#goToLinkedMoment(this.#linkedMicros);
+    this.#followLink();
   }
 
   /** @param {Details} details  of the newest state */
   setNewestDetails(details) {
     this.#newestDetails = details;
+    this.#followLink();
   }
 
   get newest() { return this.#newest; }
@@ -132,7 +137,7 @@ export class Shown {
     this.#tellWhetherFew();
     if (this.time.isLive) {
       if (this.#past === null) return;
-      showInAddress({ micros: null });
+      showInAddress({ micros: null, place: null });
       this.#past = null;
       this.#askedMicros = NaN;
       this.#lookBack.stop();
@@ -257,17 +262,57 @@ export class Shown {
   keepAddress(now) {
     if (this.#past === null || this.time.isPlaying || now - this.#addressAt < ADDRESS_MILLIS) return;
     this.#addressAt = now;
-    showInAddress({ micros: this.#past.state.madeMicros });
+    showInAddress(this.link);
   }
 
-  /** The address was copied from that of another viewer.
-   *  @param {number} micros */
+  /** The moment of what is shown, for an address: in a recording it means the same after the server was started again.
+   *  @returns {{micros: number|null, place: number|null}} */
+  get link() {
+    const { state } = this, { recording } = this.#newestDetails;
+    if (state === null) return { micros: null, place: null };
+    return recording === null ? { micros: state.madeMicros, place: null } : { micros: null, place: placeIn(recording, state.stampMicros) };
+  }
+
+  /** Whether what is shown stays: the viewer is paused, and the state of the moment has come. */
+  get isAtRest() {
+    const range = this.kept();
+    if (range === null || this.#past === null || this.time.isPlaying || !this.#lookBack.isIdle) return false;
+    return this.#linked.place === null && this.#askedMicros === microsOf(this.time.momentAt(performance.now(), range));
+  }
+
+  /** The address was copied from that of another viewer, or written by a program. */
+  #followLink() {
+    const { micros, place } = this.#linked;
+    if (this.#newest === null) return;
+    if (micros !== null) this.#goToLinkedMoment(micros);
+    else if (place !== null) this.#goToLinkedPlace(place);
+  }
+
+  /** @param {number} micros */
   #goToLinkedMoment(micros) {
-    this.#linkedMicros = null;
+    this.#linked = { micros: null, place: null };
     const range = this.kept(), moment = micros / 1000, { notice } = this.#page;
     if (range === null) return notice('This server keeps no former moments: you see the newest one');
     if (moment > range.newest) return notice('The moment of this link is not on this server: you see the newest one');
     if (moment < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
     this.seek(moment);
+  }
+
+  /** Waits until it has been played.
+   *  @param {number} seconds  from the beginning of the recording */
+  #goToLinkedPlace(seconds) {
+    const newest = this.#newest, { recording } = this.#newestDetails, { notice } = this.#page;
+    if (newest === null || recording === null) return;
+    const reached = placeIn(recording, newest.stampMicros), secondsAfter = seconds - reached, range = this.kept();
+    const isToCome = secondsAfter > 1e-6 * SAME_SAMPLE_MICROS && recording.round_secs === null;
+    if (isToCome && recording.ended_micros === null) return;
+    this.#linked = { micros: null, place: null };
+    if (range === null) return notice('This server keeps no former moments: you see the newest one');
+    const from = (recording.ended_micros ?? newest.madeMicros) + SAME_SAMPLE_MICROS;
+    const roundBefore = secondsAfter > 0 ? recording.round_secs ?? 0 : 0;
+    const millis = (from + 1e6 * (secondsAfter - roundBefore)) / 1000;
+    if (isToCome) notice('The recording ends before the moment of this link: you see its end');
+    else if (millis < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
+    this.pauseAt(millis);
   }
 }

@@ -17,6 +17,11 @@ export class StreamPanel {
     parts.details.addEventListener('toggle', () => { this.#shownAt = -Infinity; });
   }
 
+  /** Whether the server has told how the stream is. */
+  get isKnown() {
+    return this.#stream !== null;
+  }
+
   /** @param {StreamHealth} stream */
   set(stream) {
     this.#stream = stream;

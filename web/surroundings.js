@@ -34,6 +34,12 @@ export class Surroundings {
     this.#load(revision);
   }
 
+  /** Whether those of the server are shown.
+   *  @param {number|null} revision */
+  isAt(revision) {
+    return revision === this.#shown && !this.#isLoading;
+  }
+
   /** @param {number} revision */
   async #load(revision) {
     this.#isLoading = true;

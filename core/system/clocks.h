@@ -6,12 +6,22 @@
 
 namespace kinescope {
 
+namespace internal {
+inline std::int64_t monotonic_shift_nanos = 0;
+}
+
 /// Monotonic clock, ns since an unspecified time, usually the start of the machine; never steps
 /// back.
 inline std::int64_t MonotonicNanos() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  return internal::monotonic_shift_nanos + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                               std::chrono::steady_clock::now().time_since_epoch())
+                                               .count();
+}
+
+/// The monotonic clock of this process reads `nanos` now. For a server whose moments are to be the
+/// same in each run. Call it before there are other threads.
+inline void SetMonotonicClock(std::int64_t nanos) {
+  internal::monotonic_shift_nanos += nanos - MonotonicNanos();
 }
 
 /// Wall clock, ns since 1970-01-01 UTC; steps when the clock of the machine is set.

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "server/http/answer.h"
 #include "server/http/api.h"
 #include "server/http/look_back.h"
 
 namespace kinescope::http {
 namespace {
-
-std::int64_t NowNanos() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Hub::Clock::now().time_since_epoch())
-      .count();
-}
 
 SharedBytes Share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(bytes)); }
 
@@ -141,7 +137,7 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
   if (command->camera) SelectCamera(client, *command->camera);
   if (command->few_states) SetFewStates(client, *command->few_states);
   if (command->look) LookBack(client, *command->look);
-  if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
+  if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, MonotonicNanos())));
 }
 
 void Hub::SelectCamera(HubClient& client, const std::string& camera) {
@@ -186,7 +182,7 @@ void Hub::LookBack(HubClient& client, const struct LookBack& wanted) {
 }
 
 StateMoment Hub::Moment() const {
-  StateMoment moment{NowNanos(), client_count(), {}};
+  StateMoment moment{MonotonicNanos(), client_count(), {}};
   if (history_ != nullptr) moment.kept = history_->extent();
   return moment;
 }

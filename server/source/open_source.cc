@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/system/check.h"
 #include "core/system/errors.h"
 #include "core/system/input_file.h"
 #include "core/system/words.h"
@@ -73,6 +74,13 @@ std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
   PacedSource::Open reopen;
   if (loop) reopen = [url, settings] { return OpenSource(url, settings); };
   return std::make_unique<PacedSource>(std::move(source), std::move(reopen));
+}
+
+std::unique_ptr<Source> OpenUpTo(const std::string& url, std::int64_t stop_at,
+                                 const SourceSettings& settings) {
+  auto source = OpenSource(url, settings);
+  KINESCOPE_CHECK(!source->is_live());
+  return PacedSource::UpTo(stop_at, std::move(source));
 }
 
 }  // namespace kinescope::app

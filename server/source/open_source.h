@@ -1,6 +1,7 @@
 /// Opens sources by URL, in the same way for all commands. Any thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -31,5 +32,10 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
 /// A live source is returned unchanged.
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
                                        const SourceSettings& settings = {});
+
+/// Opens a file or the built-in subject to be read at once up to `stop_at` (ns after the first
+/// sample), as PacedSource::UpTo() does it. @pre the source is not live
+std::unique_ptr<Source> OpenUpTo(const std::string& url, std::int64_t stop_at,
+                                 const SourceSettings& settings = {});
 
 }  // namespace kinescope::app

@@ -1,10 +1,11 @@
 #include "server/source/paced_source.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <thread>
 #include <utility>
 
-#include "core/system/clocks.h"
 #include "core/system/errors.h"
 
 namespace kinescope::app {
@@ -36,6 +37,13 @@ void AddUp(SourceCounters& sum, const SourceCounters& more) {
 
 PacedSource::PacedSource(std::unique_ptr<Source> source, Open reopen)
     : source_(std::move(source)), reopen_(std::move(reopen)) {}
+
+std::unique_ptr<PacedSource> PacedSource::UpTo(std::int64_t stop_at,
+                                               std::unique_ptr<Source> source) {
+  auto paced = std::make_unique<PacedSource>(std::move(source));
+  paced->stop_at_ = stop_at;
+  return paced;
+}
 
 void PacedSource::OnCharacter(const Character& character) {
   characters_.insert_or_assign(character.id, character);
@@ -116,7 +124,7 @@ void PacedSource::HandOn(Event& event, std::int64_t played, SampleSink& sink) {
   if (const auto* character = std::get_if<Character>(&event)) return sink.OnCharacter(*character);
   const auto as_if_now = [&](auto& sample) {
     sample.stamp_nanos = start_wall_ + played;
-    sample.arrival_nanos = MonotonicNanos();
+    sample.arrival_nanos = now_nanos();
   };
   if (auto* sample = std::get_if<BodySample>(&event)) {
     as_if_now(*sample);
@@ -128,30 +136,75 @@ void PacedSource::HandOn(Event& event, std::int64_t played, SampleSink& sink) {
   sink.OnObjects(objects);
 }
 
+// All of this moment: several people, or a character and its sample.
+void PacedSource::HandOnNext(SampleSink& sink) {
+  const std::int64_t moment = queue_.begin()->first;
+  if (stop_at_) stopped_clock_ = start_monotonic_ + moment;
+  while (!queue_.empty() && queue_.begin()->first == moment) {
+    auto next = queue_.extract(queue_.begin());
+    HandOn(next.mapped(), moment, sink);
+  }
+}
+
+void PacedSource::Begin() {
+  if (std::exchange(has_started_, true)) return;
+  const std::int64_t first = queue_.begin()->first;
+  start_monotonic_ = now_nanos() - first;
+  // Stamps of 0 are those of no sample.
+  start_wall_ = (stop_at_ ? std::max(first_stamp_, kNanosPerSecond) : WallNanos()) - first;
+}
+
 Source::State PacedSource::Poll(std::chrono::milliseconds timeout, SampleSink& sink) {
+  if (has_stopped_) return State::kEnded;
   const std::int64_t deadline = MonotonicNanos() + timeout.count() * kNanosPerMilli;
   ReadAhead(deadline);
+  if (stop_at_) return PollAtOnce(sink);
   if (queue_.empty()) {
     if (failure_ != nullptr) std::rethrow_exception(failure_);
     return read_all_ ? State::kEnded : State::kMore;
   }
-  if (!std::exchange(has_started_, true)) {
-    start_monotonic_ = MonotonicNanos() - queue_.begin()->first;
-    start_wall_ = WallNanos() - queue_.begin()->first;
-  }
+  Begin();
   const std::int64_t due = start_monotonic_ + queue_.begin()->first;
   // A file's samples are due at known times; there is no event to wait for but the clock.
   const std::int64_t wait = std::min(due, deadline) - MonotonicNanos();
   if (wait > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
   if (due > deadline) return State::kMore;
-  // All of this moment: several people, or a character and its sample.
-  const std::int64_t moment = queue_.begin()->first;
-  while (!queue_.empty() && queue_.begin()->first == moment) {
-    auto next = queue_.extract(queue_.begin());
-    HandOn(next.mapped(), moment, sink);
-  }
+  HandOnNext(sink);
   return State::kMore;
 }
+
+Source::State PacedSource::PollAtOnce(SampleSink& sink) {
+  const std::int64_t end = kStoppedOriginNanos + *stop_at_;
+  if (!HasEnough()) return State::kMore;  // another person may have an earlier sample
+  if (queue_.empty()) {
+    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    CheckReached();
+  } else {
+    Begin();
+    if (start_monotonic_ + queue_.begin()->first <= end) {
+      HandOnNext(sink);
+      return State::kMore;
+    }
+  }
+  stopped_clock_ = end;
+  has_stopped_ = true;
+  queue_.clear();
+  return State::kEnded;
+}
+
+void PacedSource::CheckReached() const {
+  // The last sample may miss the moment by the rounding of its stamp, not by more.
+  constexpr std::int64_t kRoundingNanos = 1000;
+  const std::int64_t played = has_started_ ? stopped_clock_ - kStoppedOriginNanos : -1;
+  if (*stop_at_ <= played + kRoundingNanos) return;
+  if (played < 0) throw SourceError(description() + ": has no sample");
+  std::ostringstream why;
+  why << description() << ": ends " << std::fixed << std::setprecision(3) << Secs(played)
+      << " s after its first sample, before " << Secs(*stop_at_) << " s; choose an earlier time";
+  throw SourceError(why.str());
+}
+
+std::int64_t PacedSource::now_nanos() const { return stop_at_ ? stopped_clock_ : MonotonicNanos(); }
 
 std::optional<Playback> PacedSource::playback() const {
   if (!has_started_) return std::nullopt;

@@ -1,6 +1,6 @@
 /// Plays a source without pacing (a file, the built-in subject) at its true rate, as if suits sent
-/// it now. Samples of several people are delivered in order of time, whatever their order in the
-/// file. One thread.
+/// it now; or up to a moment at once, as if they had sent it before. Samples of several people are
+/// delivered in order of time, whatever their order in the file. One thread.
 #pragma once
 
 #include <chrono>
@@ -14,9 +14,14 @@
 #include <variant>
 
 #include "core/source.h"
+#include "core/system/clocks.h"
 #include "server/source/counter_splice.h"
 
 namespace kinescope::app {
+
+/// Moment of the first sample of a source that stops at a moment, monotonic clock: always the same,
+/// so that all moments are the same in each run.
+inline constexpr std::int64_t kStoppedOriginNanos = 3600 * kNanosPerSecond;
 
 class PacedSource : public Source, private SampleSink {
  public:
@@ -26,8 +31,13 @@ class PacedSource : public Source, private SampleSink {
   /// counters, time codes and stamps continue.
   explicit PacedSource(std::unique_ptr<Source> source, Open reopen = nullptr);
 
+  /// Delivers the samples up to `stop_at` (ns after the first one) at once, and then no more, with
+  /// the source's own stamps. Its time stands still there.
+  static std::unique_ptr<PacedSource> UpTo(std::int64_t stop_at, std::unique_ptr<Source> source);
+
   /// Delivers the samples that are due. Returns after a delivery or after `timeout`. Exceptions of
   /// the source are thrown after the samples before them.
+  /// @throws SourceError if the source ends before the moment at which it is to stop
   [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
 
   /// Over all rounds; `samples` are those delivered.
@@ -36,6 +46,7 @@ class PacedSource : public Source, private SampleSink {
   bool is_live() const override { return true; }
   double nominal_rate_hz() const override { return source_->nominal_rate_hz(); }
   std::optional<Playback> playback() const override;
+  std::int64_t now_nanos() const override;
 
  private:
   // Read but not due yet. In queued samples the stamp is the played time.
@@ -59,11 +70,18 @@ class PacedSource : public Source, private SampleSink {
   bool HasEnough() const;
   void EndRound();
   void HandOn(Event& event, std::int64_t played, SampleSink& sink);
+  void HandOnNext(SampleSink& sink);
+  void Begin();
+  State PollAtOnce(SampleSink& sink);
+  void CheckReached() const;
 
   std::unique_ptr<Source> source_;
   Open reopen_;
   SourceCounters earlier_;  // of earlier rounds
   std::uint64_t samples_ = 0;
+  std::optional<std::int64_t> stop_at_;  // after the first sample; nullopt: at the true rate
+  std::int64_t stopped_clock_ = kStoppedOriginNanos;  // its time; with stop_at_
+  bool has_stopped_ = false;
 
   // "Played" time is ns since the first sample of the first round.
   std::multimap<std::int64_t, Event> queue_;  // by played time; entries with equal times in the

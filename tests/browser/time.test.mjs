@@ -286,6 +286,39 @@ test('a recording is never called live: the page says where in it the viewer is,
   await rm(folder, { recursive: true });
 });
 
+test('an address leads to a moment of a recording, also on another server', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'kinescope-at-'));
+  const file = join(folder, 'walk.mvnx');
+  await promisify(execFile)(process.env.KINESCOPE, ['convert', 'demo:walk', '--seconds', '8', '--out', file]);
+  const [stopped, playing] = [await serve(file, ['--stop_at', '6']), await serve(file)];
+  const placeIs = (page, place) => page.waitForFunction(
+    (wanted) => Math.abs(Number(new URL(location.href).searchParams.get('at')) - wanted) < 0.0011, place, LONG);
+  const settled = (page) => page.waitForSelector('body[data-settled]', LONG);
+  for (const { url } of [stopped, playing]) {
+    const { page, problems, close } = await openPage(`${url}?at=2.5`);
+    await statusIs(page, /^Recording 0:02\.[45] of 0:08$/);
+    await settled(page);
+    // One that plays delivers samples as its machine has time.
+    const sample = await sampleOf(page);
+    assert.ok(url === stopped.url ? sample === 300 : Math.abs(sample - 300) <= 2, `sample ${sample}`);
+    await page.keyboard.press('ArrowRight');
+    await sampleIs(page, sample + 1);
+    await placeIs(page, (sample + 1) / 120);
+    await settled(page);
+    await page.keyboard.press('Space');  // plays
+    await page.waitForFunction(() => !document.body.hasAttribute('data-settled'), null, LONG);
+    assert.deepEqual(problems, []);
+    await close();
+  }
+  const late = await openPage(`${stopped.url}?at=7`);
+  await late.page.waitForFunction(
+    () => /^The recording ends before/.test(document.getElementById('banner').textContent), null, LONG);
+  await statusIs(late.page, /^Recording 0:06\.0 of 0:08$/);
+  await late.close();
+  for (const server of [stopped, playing]) await server.stop();
+  await rm(folder, { recursive: true });
+});
+
 test('on a phone the transport is in reach and covers nothing of the person', async () => {
   const { page, close } = await openLive(1, { viewport: PHONE });
   await page.click('#play');

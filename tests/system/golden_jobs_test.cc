@@ -80,6 +80,18 @@ TEST_F(GoldenJobs, CompareTheOthersWhenACaseCrashes) {
                     HasSubstr("bend                     same")));
 }
 
+TEST_F(GoldenJobs, AcceptTheOthersWhenACaseHangs) {
+  WriteCaseThatWaits("a_hangs");
+  WriteCase("c", "source: demo:n_pose\nsize: 64x64\n");
+  const ProgramResult result = Golden({"update", case_, "--jobs=1", "--case_limit_secs=3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("a_hangs                  NOT ACCEPTED"), HasSubstr("within 3 s"),
+                    HasSubstr("bend                     unchanged"),
+                    HasSubstr("c                        accepted for the first time")));
+  EXPECT_EQ(Check({"c"}).exit_code, 0);
+}
+
 TEST_F(GoldenJobs, SayWhyNothingCanBeDrawn) {
   const ProgramResult result =
       testing::Kinescope({"golden", "check", case_, "--out", case_ / "out", "--backend", "egl"},

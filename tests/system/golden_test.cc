@@ -197,7 +197,7 @@ TEST_F(GoldenCheck, AcceptsTheOthersWhenACaseShowsNothing) {
   const ProgramResult result = Golden({"update", case_});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.out, AllOf(HasSubstr("a_nothing                NOT ACCEPTED"),
-                                HasSubstr("the picture is of one colour"),
+                                HasSubstr("shows nothing: all pixels have one colour"),
                                 HasSubstr("c_new                    accepted for the first time")));
   EXPECT_FALSE(fs::exists(case_ / "a_nothing.png"));
 }
@@ -321,7 +321,8 @@ TEST_F(GoldenCheck, DrawsTheSameBytesUnderAllCircumstances) {
   WriteCase("n_pose", "source: demo:n_pose\nsize: 64x64\n");
   const ProgramResult result = Golden({"stress", case_});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out, AllOf(HasSubstr("8 filling threads            2 the same"),
+  EXPECT_THAT(result.out, AllOf(HasSubstr("2 pictures, drawn under 10 circumstances:"),
+                                HasSubstr("8 filling threads            2 the same"),
                                 HasSubstr("read-only home               2 the same"),
                                 HasSubstr("working folder /             2 the same"),
                                 HasSubstr("lowest priority              2 the same")));

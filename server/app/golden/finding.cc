@@ -12,9 +12,9 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::array<const char*, 14> kKindNames = {
-    "picture", "class",  "missing", "new",     "text",  "input",     "load",
-    "floor",   "camera", "moved",   "visible", "light", "structure", "pixels"};
+constexpr std::array<const char*, 15> kKindNames = {
+    "picture", "fault",  "class", "missing", "new",   "text",      "input", "load",
+    "floor",   "camera", "moved", "visible", "light", "structure", "pixels"};
 
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding

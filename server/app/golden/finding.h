@@ -12,6 +12,7 @@ namespace kinescope::app {
 /// The worst first: what would mislead a person who looks at the picture.
 enum class FindingKind {
   kPicture,  // the accepted picture is not the one of golden.lock, or of another size
+  kFault,    // the new picture contradicts what it was drawn from, or shows nothing
   kClass,    // of a load
   kMissing,
   kNew,

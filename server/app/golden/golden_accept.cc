@@ -54,6 +54,7 @@ class Accepting {
   /// @throws std::runtime_error why it is not taken.
   void Take(const CaseVerdict& drawn) {
     if (!drawn.now) throw std::runtime_error("was not drawn; `golden check` says why");
+    if (const std::string fault = FaultOf(drawn); !fault.empty()) throw std::runtime_error(fault);
     const std::string name = CaseNameOf(drawn.name);
     const auto found = std::find_if(suite_.cases.begin(), suite_.cases.end(),
                                     [&](const FoundCase& each) { return each.name == name; });
@@ -95,7 +96,9 @@ class Accepting {
     if (settings_.takes_other_environment) return;
     for (const auto& [name, accepted] : suite_.lock) {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
-      if (changes.environment.empty()) continue;
+      const bool is_alike = accepted.environment.count("browser") ==
+                            drawn.now->environment.count("browser");  // scenes or pages
+      if (!is_alike || changes.environment.empty()) continue;
       throw std::runtime_error(
           fmt::format("was drawn in another environment than {} ({}); draw it there, or take it "
                       "with --other_environment",

@@ -1,6 +1,7 @@
 // `kinescope golden accept | update`: from now on, this is the picture.
 #include <memory>
 
+#include "core/system/scratch_folder.h"
 #include "server/app/golden/golden_accept.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_update.h"
@@ -22,12 +23,18 @@ int AcceptAll(const AcceptOptions& options) {
 
 struct UpdateOptions {
   GoldenCaseOptions cases;
-  BackendOptions backend;
+  GoldenJobOptions jobs;
 };
 
 int UpdateAll(const UpdateOptions& options) {
   RefuseToAcceptInCi();
-  return UpdateSuite(options.cases.Find(), *StartRenderer(options.backend));
+  const GoldenSuite suite = options.cases.Find();
+  const ScratchFolder drawn;
+  CheckSettings settings;
+  settings.out = drawn.path();
+  settings.keeps_all = true;
+  return UpdateSuite(suite, options.jobs.Start(*options.cases.folder, suite.cases.size(), settings),
+                     drawn.path());
 }
 
 }  // namespace
@@ -57,7 +64,7 @@ Command GoldenUpdateCommand() {
   update.name = "update";
   update.about = "Draws every case and accepts it as it is; writes only what has changed";
   values->cases.List(update.options);
-  values->backend.List(update.options);
+  values->jobs.List(update.options);
   update.positionals = {"folder", "case"};
   update.footer = "Exit code: 0 all are accepted, 2 a case is not. Refused where CI is set.";
   update.run = [values](options::OptionList&) { return UpdateAll(*values); };

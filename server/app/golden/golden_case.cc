@@ -11,6 +11,7 @@
 
 #include "core/system/errors.h"
 #include "render/multi_view.h"
+#include "server/app/golden/golden_page.h"
 #include "server/options/option_json.h"
 #include "server/options/yaml_options.h"
 #include "server/picture/render_planner.h"
@@ -205,6 +206,9 @@ GoldenCase::GoldenCase()
 void GoldenCase::List(options::OptionList& option) {
   option("source", source,
          "recording, relative to the case, demo:MOTION, or pose:ANGLES (docs/pose.md)");
+  option("page", page,
+         "web page in place of a scene: its address, a file, relative to the case, or dashboard, "
+         "which shows the source at the time");
   option("time", time, "time after the first sample");
   option("seconds", seconds, "of a clip, which begins at that time: its length");
   option("fps", fps, "of a clip: its frame rate, pictures per second");
@@ -235,13 +239,18 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
     if (option.name == "why") continue;
     golden_case.given[option.name] = options::ToJson(*option.value);
   }
-  if (golden_case.source->empty()) throw UsageError(yaml.string() + ": source is missing");
+  if (!golden_case.page->empty()) {
+    ResolvePage(golden_case, yaml);
+  } else if (golden_case.source->empty()) {
+    throw UsageError(yaml.string() +
+                     ": source is missing: a recording, demo:MOTION, or pose:ANGLES");
+  }
   CheckClip(golden_case, yaml);
   if (*golden_case.view.loads == render::LoadsShown::kSkin) {
     throw UsageError(yaml.string() +
                      ": loads: skin hides the load spheres, which are compared; use both");
   }
-  if (!IsSubjectUrl(*golden_case.source)) {
+  if (!golden_case.source->empty() && !IsSubjectUrl(*golden_case.source)) {
     golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }
   for (options::Option& option : list) option.value->SetFolder(yaml.parent_path());
@@ -249,9 +258,11 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
 }
 
 std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
-  const SourceIdentity source = IdentityOf(*golden_case.source);
-  std::vector<InputFact> inputs = {
-      {"source", source.name, source.digest ? source.digest->sha256 : ""}};
+  std::vector<InputFact> inputs;
+  if (!golden_case.source->empty()) {
+    const SourceIdentity source = IdentityOf(*golden_case.source);
+    inputs.push_back({"source", source.name, source.digest ? source.digest->sha256 : ""});
+  }
   GoldenCase copy = golden_case;  // a list refers to values that can be set
   options::OptionList list;
   copy.List(list);
@@ -263,6 +274,7 @@ std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
 
 void Draw(const GoldenCase& golden_case, render::Renderer& renderer,
           const std::function<void(GoldenDrawing)>& on_drawing) {
+  if (!golden_case.page->empty()) return on_drawing(DrawPageOf(golden_case));
   const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
   if (golden_case.seconds) return DrawClip(golden_case, options, renderer, on_drawing);
   RenderPlanner planner(golden_case.view, {}, options);

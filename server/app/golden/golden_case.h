@@ -42,6 +42,7 @@ struct GoldenCase {
 
   std::string name;  // of the file, without .yaml
   options::Text source;
+  options::Text page;    // "": a scene (golden_page.h)
   options::Number time;  // s
   /// Of a clip, which begins at `time`: of its pictures, every n-th is compared.
   options::Optional<options::Number> seconds;
@@ -74,6 +75,9 @@ struct GoldenDrawing {
   std::vector<render::SphereInPicture> spheres;
   std::optional<render::FrameCode> frame_code;  // what the picture must contain
   PictureFacts facts;
+  std::vector<Mask> masks;  // besides those of the case
+  /// What pixels depend on; empty: the renderer.
+  std::map<std::string, std::string> environment;
 };
 
 /// One picture; of a clip, the pictures in order, drawn as the clip is, one after the other.

@@ -66,7 +66,7 @@ Command GoldenNewCommand() {
   command.options("name", values->name, "name of the case, and of its file");
   values->described.List(command.options);
   command.positionals = {"folder", "name"};
-  command.required = {"folder", "name", "source"};
+  command.required = {"folder", "name"};
   command.footer = "Paths are given from here; in the case they are relative to its file.";
   command.run = [values](options::OptionList& given) { return WriteCase(*values, given); };
   return command;

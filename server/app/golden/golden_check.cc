@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <optional>
@@ -47,6 +48,20 @@ CaseVerdict VerdictOf(const GoldenSuite& suite, const FoundCase& found,
   return verdict;
 }
 
+std::vector<Mask> MasksOf(const GoldenCase& golden_case, const GoldenDrawing& drawing) {
+  std::vector<Mask> masks = *golden_case.masks;
+  masks.insert(masks.end(), drawing.masks.begin(), drawing.masks.end());
+  return masks;
+}
+
+bool ShowsNothing(const render::Image& image) {
+  const std::uint8_t* const first = image.rgba.data();
+  for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
+    if (std::memcmp(first, first + at, 4) != 0) return false;
+  }
+  return true;
+}
+
 // Of one picture.
 class PictureCheck {
  public:
@@ -56,13 +71,17 @@ class PictureCheck {
         found_(found),
         settings_(settings),
         drawing_(std::move(drawing)),
+        masks_(MasksOf(*found.read, drawing_)),
         verdict_(VerdictOf(suite, found, drawing_.frame)) {
-    CheckMasks(*found.read->masks, drawing_.image.width, drawing_.image.height);
+    CheckMasks(masks_, drawing_.image.width, drawing_.image.height);
+    for (const Mask& mask : drawing_.masks) verdict_.masks.push_back(mask.box);
     verdict_.now = Describe(*found.read, drawing_, environment);
   }
 
   /// @throws std::runtime_error if a picture cannot be written.
   CaseVerdict Run() {
+    if (settings_.keeps_all) WriteDrawing();
+    CheckDrawing();
     const AcceptedCase* const accepted = suite_.AcceptedOf(verdict_.name);
     if (accepted == nullptr) {
       WriteDrawing();
@@ -91,14 +110,14 @@ class PictureCheck {
     verdict_.accepted_pixels = accepted.pixels_sha256;
     verdict_.changes = ChangesBetween(accepted, now);
     verdict_.is_byte_equal = accepted.pixels_sha256 == now.pixels_sha256;
+    const std::size_t faults = verdict_.findings.size();
     CompareFacts(accepted.facts, now.facts);
-    AddObjectLayer(accepted);
+    AddObjectLayer(accepted, verdict_.findings.size() - faults);
     for (const std::string& change : verdict_.changes.inputs) {
       const std::string text = "input " + change;
       const std::string object = text.substr(0, text.find(':'));  // "input source"
       verdict_.findings.push_back({FindingKind::kInput, object, "", "", 0, text});
     }
-    CheckDrawing();
     const std::optional<render::Image> picture = ReadAccepted(accepted);
     if (!verdict_.is_byte_equal) ComparePixels(accepted, picture);
     AddEnvironment();
@@ -121,17 +140,17 @@ class PictureCheck {
   // A mask hides what lies under it, but never a load: its class is what people look for.
   void CompareFacts(const PictureFacts& expected, const PictureFacts& actual) {
     const GoldenCase& read = *found_.read;
-    verdict_.findings = kinescope::app::Compare(expected, actual, read.limits->place_px);
+    auto findings = kinescope::app::Compare(expected, actual, read.limits->place_px);
     const auto is_hidden = [&](const GoldenFinding& finding) {
       return finding.kind != FindingKind::kClass && finding.kind != FindingKind::kLoad &&
-             finding.x_px && IsMasked(*read.masks, *finding.x_px, *finding.y_px);
+             finding.x_px && IsMasked(masks_, *finding.x_px, *finding.y_px);
     };
-    auto& findings = verdict_.findings;
     findings.erase(std::remove_if(findings.begin(), findings.end(), is_hidden), findings.end());
     if (findings.empty() && read.limits->reasons.count("place") > 0 &&
         !kinescope::app::Compare(expected, actual).empty()) {
       NoteTolerance("place");
     }
+    verdict_.findings.insert(verdict_.findings.end(), findings.begin(), findings.end());
   }
 
   void NoteTolerance(const std::string& layer) {
@@ -154,16 +173,16 @@ class PictureCheck {
       case FindingKind::kFloor: return line_of("floor");
       case FindingKind::kInput: return line_of("source");
       case FindingKind::kPicture: return line_of("size");
+      case FindingKind::kFault:
       case FindingKind::kClass:
       case FindingKind::kLoad: return line_of("time");
       default: return 1;
     }
   }
 
-  void AddObjectLayer(const AcceptedCase& accepted) {
+  void AddObjectLayer(const AcceptedCase& accepted, std::size_t changed) {
     const std::size_t all =
         accepted.facts.objects.size() + accepted.facts.texts.size() + accepted.facts.cameras.size();
-    std::size_t changed = verdict_.findings.size();
     verdict_.layers.push_back({"objects",
                                changed == 0
                                    ? fmt::format("all {} the same", all)
@@ -173,13 +192,16 @@ class PictureCheck {
 
   // What the picture itself says against the state that it was drawn from.
   void CheckDrawing() {
+    if (ShowsNothing(drawing_.image)) {
+      Add(FindingKind::kFault, "shows nothing: all pixels have one colour");
+    }
     for (std::string& wrong : render::FindSphereMismatches(drawing_.image, drawing_.spheres)) {
-      Add(FindingKind::kClass, std::move(wrong));
+      Add(FindingKind::kFault, std::move(wrong));
     }
     if (!drawing_.frame_code || render::ReadFrameCode(drawing_.image) == drawing_.frame_code) {
       return;
     }
-    Add(FindingKind::kText,
+    Add(FindingKind::kFault,
         fmt::format("frame code: expected sample {}, {} ms", drawing_.frame_code->counter,
                     drawing_.frame_code->time_code_millis));
   }
@@ -241,12 +263,8 @@ class PictureCheck {
     NoteTolerances();
     if (settings_.is_strict) {
       const int levels = difference_.levels.largest_difference;
-      Add(FindingKind::kPixels,
-          fmt::format("not byte-equal: the largest difference is {}{}",
-                      Counted(static_cast<std::uint64_t>(levels), "level"),
-                      levels <= render::kChannelTolerance ? "; processors of another make differ "
-                                                            "by as much"
-                                                          : ""));
+      Add(FindingKind::kPixels, fmt::format("not byte-equal: the largest difference is {}",
+                                            Counted(static_cast<std::uint64_t>(levels), "level")));
     }
   }
 
@@ -274,9 +292,9 @@ class PictureCheck {
 
   void FindDifferenceFrom(const render::Image& picture) {
     render::Image unmasked = drawing_.image;
-    CopyMasked(*found_.read->masks, picture, unmasked);
+    CopyMasked(masks_, picture, unmasked);
     difference_ = render::FindDifference(picture, unmasked, found_.read->limits->picture);
-    for (const Mask& mask : *found_.read->masks) {
+    for (const Mask& mask : masks_) {
       const std::int64_t hidden = DifferentPixels(mask, picture, drawing_.image);
       if (hidden == 0) continue;
       verdict_.notes.push_back(fmt::format("mask {} hides {} that {} ({})", ToText(mask.box),
@@ -325,6 +343,7 @@ class PictureCheck {
   }
 
   void WriteDrawing() {
+    if (!verdict_.now->file_sha256.empty()) return;  // it is written
     fs::create_directories(settings_.out);
     const fs::path path = NewPictureOf(settings_.out, verdict_.name);
     render::WritePng(path, drawing_.image);
@@ -335,6 +354,7 @@ class PictureCheck {
   const FoundCase& found_;
   const CheckSettings& settings_;
   const GoldenDrawing drawing_;
+  const std::vector<Mask> masks_;
   render::PictureDifference difference_;
   CaseVerdict verdict_;
 };
@@ -403,14 +423,15 @@ AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawin
                       const std::map<std::string, std::string>& environment) {
   AcceptedCase described;
   described.pixels_sha256 = PixelsHash(drawing.image);
-  if (!golden_case.masks->empty()) {
-    described.unmasked_sha256 = PixelsHash(WithoutMasked(*golden_case.masks, drawing.image));
+  const std::vector<Mask> masks = MasksOf(golden_case, drawing);
+  if (!masks.empty()) {
+    described.unmasked_sha256 = PixelsHash(WithoutMasked(masks, drawing.image));
   }
   described.width = drawing.image.width;
   described.height = drawing.image.height;
   described.options = golden_case.given;
   described.inputs = InputsOf(golden_case);
-  described.environment = environment;
+  described.environment = drawing.environment.empty() ? environment : drawing.environment;
   described.facts = drawing.facts;
   return described;
 }

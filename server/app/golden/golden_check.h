@@ -16,6 +16,7 @@ namespace kinescope::app {
 struct CheckSettings {
   std::filesystem::path out;  // folder for the pictures of cases that are not the same
   bool is_strict = false;     // only equal bytes are the same
+  bool keeps_all = false;     // writes the pictures of cases that are the same, too
 };
 
 /// Draws a case and compares it: one verdict, or of a clip one for each picture, and for each that

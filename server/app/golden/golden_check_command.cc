@@ -1,8 +1,6 @@
 // `kinescope golden check`: have the pictures that people see changed, and what in them?
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -22,7 +20,6 @@
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_verdict_json.h"
 #include "server/app/print.h"
-#include "server/picture/cores.h"
 
 namespace kinescope::app {
 namespace {
@@ -30,36 +27,9 @@ namespace {
 struct CheckOptions {
   GoldenCaseOptions cases;
   options::Text out{"out/golden"}, junit, summary;
-  options::Flag json, is_strict, answers;
-  options::Whole jobs{0, {0, 64, ""}};
-  options::Number case_limit_secs{120, {0.1, 86'400, "s"}};
-  BackendOptions backend;
+  options::Flag json, is_strict, keeps_all, answers;
+  GoldenJobOptions jobs;
 };
-
-// Of a process that compares for this one.
-std::vector<std::string> CommandOfJobs(const CheckOptions& options) {
-  std::vector<std::string> command = {
-      std::filesystem::read_symlink("/proc/self/exe").string(),
-      "golden",
-      "check",
-      "--answers",
-      "--folder=" + *options.cases.folder,
-      "--out=" + *options.out,
-      "--backend=" + options.backend.backend.ToText(),
-      "--draw_limit_secs=" + options.backend.draw_limit_secs.ToText()};
-  if (*options.is_strict) command.emplace_back("--strict");
-  return command;
-}
-
-JobSettings JobsOf(const CheckOptions& options, std::size_t cases) {
-  JobSettings settings;
-  const std::int64_t asked = *options.jobs > 0 ? *options.jobs : CoresHere();
-  settings.jobs =
-      static_cast<int>(std::clamp<std::int64_t>(asked, 1, static_cast<std::int64_t>(cases)));
-  settings.limit_secs = *options.case_limit_secs;
-  settings.command = CommandOfJobs(options);
-  return settings;
-}
 
 void PrintVerdict(const CaseVerdict& verdict) {
   const char* const how =
@@ -117,12 +87,12 @@ void WriteResults(const CheckOptions& options, const std::vector<CaseVerdict>& v
 
 int CheckAll(const CheckOptions& options) {
   const GoldenSuite suite = options.cases.Find();
+  const CheckSettings settings = {*options.out, *options.is_strict, *options.keeps_all};
   if (*options.answers) {
-    AnswerOrders(suite, {*options.out, *options.is_strict}, options.backend);
+    AnswerOrders(suite, settings, options.jobs.backend);
     return 0;
   }
-  const JobSettings jobs = JobsOf(options, suite.cases.size());
-  render::UseFillingThreads(FillingThreads(CoresHere(), jobs.jobs));
+  const JobSettings jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
   ClearRun(*options.out);
   const GithubOutput github(*options.json);
   std::vector<CaseVerdict> verdicts;
@@ -149,16 +119,14 @@ Command GoldenCheckCommand() {
   check.name = "check";
   check.about = "Draws every case and compares it with the accepted picture";
   values->cases.List(check.options);
-  values->backend.List(check.options);
+  values->jobs.List(check.options);
   check.options("out", values->out,
                 "folder for the report, the verdicts (run.json) and the pictures of cases that are "
                 "not the same");
-  check.options("jobs", values->jobs,
-                "cases that are drawn at a time; each in a process of its own; 0: one per core");
-  check.options("case_limit_secs", values->case_limit_secs,
-                "time after which a case is given up as one that hangs");
   check.options("strict", values->is_strict,
                 "only equal bytes in the accepted environment are the same");
+  check.options("all_pictures", values->keeps_all,
+                "write the pictures of cases that are the same, too");
   check.options("junit", values->junit, "JUnit XML file for CI servers");
   check.options("summary", values->summary, "Markdown file, for comments and pages of jobs");
   check.options("json", values->json, "print the verdicts as JSON");

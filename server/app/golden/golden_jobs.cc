@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -161,6 +162,21 @@ const FoundCase& CaseNamed(const std::string& name, const GoldenSuite& suite) {
 }
 
 }  // namespace
+
+std::vector<std::string> CommandOfJobs(const std::string& folder, const CheckSettings& settings,
+                                       const BackendOptions& backend) {
+  std::vector<std::string> command = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                                      "golden",
+                                      "check",
+                                      "--answers",
+                                      "--folder=" + folder,
+                                      "--out=" + settings.out.string(),
+                                      "--backend=" + backend.backend.ToText(),
+                                      "--draw_limit_secs=" + backend.draw_limit_secs.ToText()};
+  if (settings.is_strict) command.emplace_back("--strict");
+  if (settings.keeps_all) command.emplace_back("--all_pictures");
+  return command;
+}
 
 void CheckInProcesses(const GoldenSuite& suite, const JobSettings& settings,
                       const std::function<void(const CaseVerdict&)>& report) {

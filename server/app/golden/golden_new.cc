@@ -7,6 +7,7 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
+#include "server/app/golden/golden_page.h"
 #include "server/app/print.h"
 #include "server/options/option_json.h"
 #include "server/options/yaml_file.h"
@@ -34,7 +35,8 @@ std::string RelativeTo(const fs::path& folder, const std::string& path) {
 // As the case must say it: paths were given from here, and are read from there.
 std::string TextFor(const Option& option, const fs::path& folder) {
   const std::string text = option.value->ToText();
-  const bool is_file = option.name == "source" && !IsSubjectUrl(text);
+  const bool is_file = (option.name == "source" && !IsSubjectUrl(text)) ||
+                       (option.name == "page" && IsPageFile(text));
   return is_file ? RelativeTo(folder, text) : text;
 }
 

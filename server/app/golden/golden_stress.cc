@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 
 #include "core/system/scratch_folder.h"
 #include "core/system/stop_signal.h"
+#include "core/system/words.h"
+#include "render/image/png_file.h"
 #include "server/app/golden/finding.h"
+#include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_suite.h"
 #include "server/app/print.h"
@@ -50,6 +56,35 @@ std::vector<Circumstance> Circumstances(const fs::path& scratch) {
   return all;
 }
 
+double DistanceTo(const ObjectFact& object, double x_px, double y_px) {
+  return std::hypot(object.x_px - x_px, object.y_px - y_px);
+}
+
+// Where pictures of equal size, whose objects are the same, differ: "2 pixels differ, the first at
+// x 120, y 45, nearest to right_knee".
+std::string FirstDifference(const render::Image& before, const render::Image& now,
+                            const PictureFacts& facts) {
+  std::int64_t pixels = 0, first = 0;
+  for (std::int64_t i = 4 * std::int64_t{now.width} * now.height - 4; i >= 0; i -= 4) {
+    if (std::memcmp(&before.rgba[static_cast<std::size_t>(i)],
+                    &now.rgba[static_cast<std::size_t>(i)], 4) == 0) {
+      continue;
+    }
+    ++pixels;
+    first = i / 4;
+  }
+  const auto x_px = static_cast<double>(first % now.width),
+             y_px = static_cast<double>(first / now.width);
+  const auto nearest = std::min_element(
+      facts.objects.begin(), facts.objects.end(), [&](const ObjectFact& a, const ObjectFact& b) {
+        return DistanceTo(a, x_px, y_px) < DistanceTo(b, x_px, y_px);
+      });
+  return fmt::format("{} {}, the first at x {}, y {}{}",
+                     Counted(static_cast<std::uint64_t>(pixels), "pixel"),
+                     pixels == 1 ? "differs" : "differ", x_px, y_px,
+                     nearest == facts.objects.end() ? "" : ", nearest to " + nearest->name);
+}
+
 class Stress {
  public:
   explicit Stress(const StressSettings& settings)
@@ -57,7 +92,10 @@ class Stress {
 
   int Run() {
     const auto circumstances = Circumstances(scratch_.path());
-    first_ = Draw({"/usr/bin/env"});
+    first_ = Draw({"/usr/bin/env"}, FirstRun());
+    Print("{}, drawn under {} circumstances{}:\n", Counted(first_.size(), "picture"),
+          circumstances.size(),
+          settings_.rounds == 1 ? "" : fmt::format(", {} times", settings_.rounds));
     for (int round = 0; round < settings_.rounds; ++round) {
       for (const Circumstance& each : circumstances) {
         if (StopRequested()) throw std::runtime_error("interrupted");
@@ -70,14 +108,15 @@ class Stress {
  private:
   using Drawn = std::map<std::string, CaseVerdict>;
 
+  fs::path FirstRun() const { return scratch_ / "first"; }
+
   // In a process of its own, whose environment is another one.
-  Drawn Draw(std::vector<std::string> command) {
-    const fs::path out = scratch_ / "run";
+  Drawn Draw(std::vector<std::string> command, const fs::path& out) {
     command.push_back(fs::read_symlink("/proc/self/exe").string());
     command.insert(command.end(), {"golden", "check", fs::absolute(settings_.folder).string()});
     for (const FoundCase& found : suite_.cases) command.push_back(found.name);
-    command.insert(command.end(),
-                   {"--out", out.string(), "--backend", settings_.backend, "--json"});
+    command.insert(command.end(), {"--out", out.string(), "--backend", settings_.backend,
+                                   "--all_pictures", "--json"});
     const ChildResult child =
         RunChild(command, kMostPerCase * static_cast<int>(suite_.cases.size()),
                  [] { return !StopRequested(); });
@@ -95,7 +134,8 @@ class Stress {
   }
 
   void CompareWith(const Circumstance& circumstance) {
-    const Drawn drawn = Draw(circumstance.before);
+    const fs::path run = scratch_ / "run";
+    const Drawn drawn = Draw(circumstance.before, run);
     std::vector<std::string> lines;
     for (const auto& [name, each] : drawn) {
       const auto& before = first_[name].now;
@@ -106,7 +146,10 @@ class Stress {
         const auto findings = Compare(before->facts, each.now->facts);
         lines.push_back(fmt::format(
             "{}: {}", name,
-            findings.empty() ? "other pixels, and the same objects" : findings.front().text));
+            findings.empty()
+                ? FirstDifference(render::ReadPng(NewPictureOf(FirstRun(), name)),
+                                  render::ReadPng(NewPictureOf(run, name)), each.now->facts)
+                : findings.front().text));
       }
     }
     Print("{:<28} {}\n", circumstance.name,

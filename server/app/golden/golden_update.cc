@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 
 #include "core/system/errors.h"
 #include "core/system/sha256.h"
-#include "core/system/stop_signal.h"
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/print.h"
@@ -19,24 +17,6 @@ namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool ShowsNothing(const render::Image& image) {
-  const std::uint8_t* const first = image.rgba.data();
-  for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
-    if (std::memcmp(first, first + at, 4) != 0) return false;
-  }
-  return true;
-}
-
-/// @throws std::runtime_error why the drawing must not be accepted.
-void CheckDrawing(const GoldenCase& golden_case, const GoldenDrawing& drawing) {
-  CheckMasks(*golden_case.masks, drawing.image.width, drawing.image.height);
-  if (ShowsNothing(drawing.image)) throw std::runtime_error("the picture is of one colour");
-  const auto wrong = render::FindSphereMismatches(drawing.image, drawing.spheres);
-  if (wrong.empty()) return;
-  throw std::runtime_error("sphere colours in the picture do not match the load classes: " +
-                           wrong.front());
-}
 
 // What has changed between them, in words; "": nothing.
 std::string WordsFor(const AcceptedCase* before, const AcceptedCase& now) {
@@ -61,22 +41,56 @@ bool IsThere(const fs::path& picture, const std::string& pixels_sha256) {
   }
 }
 
-// What was written; "unchanged" if nothing was.
-std::string Accept(GoldenSuite& suite, const FoundCase& found, const GoldenDrawing& drawing,
-                   const std::map<std::string, std::string>& environment) {
-  const std::string name = PictureName(found.name, drawing.frame);
-  AcceptedCase now = Describe(*found.read, drawing, environment);
-  const AcceptedCase* const before = suite.AcceptedOf(name);
-  const std::string words = WordsFor(before, now);
-  const fs::path picture = suite.PictureOf(name);
-  const bool is_there = IsThere(picture, now.pixels_sha256);
-  if (!is_there) render::WritePng(picture, drawing.image);
-  now.file_sha256 = DigestOf(picture).sha256;
-  suite.lock[name] = std::move(now);
-  if (before == nullptr) return "accepted for the first time; check the picture";
-  if (!words.empty()) return "accepted: " + words + "; check the picture";
-  return is_there ? "unchanged" : "the picture was missing or damaged and is written again";
-}
+class Updating {
+ public:
+  Updating(GoldenSuite& suite, const fs::path& drawn) : suite_(suite), drawn_(drawn) {}
+
+  bool is_complete() const { return is_complete_; }
+
+  void Take(const CaseVerdict& verdict) {
+    const bool is_of_case =
+        std::any_of(suite_.cases.begin(), suite_.cases.end(),
+                    [&](const FoundCase& each) { return each.name == CaseNameOf(verdict.name); });
+    if (!is_of_case) return;  // a file without one
+    if (!verdict.now && verdict.outcome == Outcome::kDiffers) return Remove(verdict.name);
+    const std::string fault = verdict.now ? FaultOf(verdict) : verdict.reason;
+    if (!fault.empty()) {
+      is_complete_ = false;
+      Print("{:<24} NOT ACCEPTED\n  {}\n", verdict.name, fault);
+      return;
+    }
+    Print("{:<24} {}\n", verdict.name, Accept(verdict));
+  }
+
+ private:
+  void Remove(const std::string& name) {
+    suite_.lock.erase(name);
+    fs::remove(suite_.PictureOf(name));
+    Print("{:<24} removed: the case does not draw it any more\n", name);
+  }
+
+  // What was written; "unchanged" if nothing was.
+  std::string Accept(const CaseVerdict& verdict) {
+    AcceptedCase now = *verdict.now;
+    const AcceptedCase* const before = suite_.AcceptedOf(verdict.name);
+    const bool is_first = before == nullptr;
+    const std::string words = WordsFor(before, now);
+    const fs::path picture = suite_.PictureOf(verdict.name);
+    const bool is_there = IsThere(picture, now.pixels_sha256);
+    if (!is_there) {
+      render::WritePng(picture, render::ReadPng(NewPictureOf(drawn_, verdict.name)));
+    }
+    now.file_sha256 = DigestOf(picture).sha256;
+    suite_.lock[verdict.name] = std::move(now);
+    if (is_first) return "accepted for the first time; check the picture";
+    if (!words.empty()) return "accepted: " + words + "; check the picture";
+    return is_there ? "unchanged" : "the picture was missing or damaged and is written again";
+  }
+
+  GoldenSuite& suite_;
+  const fs::path& drawn_;
+  bool is_complete_ = true;
+};
 
 std::string ContentOf(const GoldenLock& lock) {
   std::string content;
@@ -94,38 +108,28 @@ void RefuseToAcceptInCi() {
                    "machine, and commit what it writes");
 }
 
-int UpdateSuite(GoldenSuite suite, render::Renderer& renderer) {
-  const auto environment = EnvironmentOf(renderer.info());
-  const std::string before = ContentOf(suite.lock);
-  bool is_complete = true;
-  for (const FoundCase& found : suite.cases) {
-    if (StopRequested()) throw std::runtime_error("interrupted; nothing is accepted");
-    std::vector<std::string> left = suite.AcceptedPicturesOf(found);
-    try {
-      if (!found.read) throw std::runtime_error(found.error);
-      Draw(*found.read, renderer, [&](const GoldenDrawing& drawing) {
-        CheckDrawing(*found.read, drawing);
-        const std::string name = PictureName(found.name, drawing.frame);
-        Print("{:<24} {}\n", name, Accept(suite, found, drawing, environment));
-        left.erase(std::remove(left.begin(), left.end(), name), left.end());
-      });
-    } catch (const std::exception& error) {
-      is_complete = false;
-      Print("{:<24} NOT ACCEPTED\n  {}\n", found.name, error.what());
-      continue;
-    }
-    for (const std::string& name : left) {
-      suite.lock.erase(name);
-      fs::remove(suite.PictureOf(name));
-      Print("{:<24} removed: the case does not draw it any more\n", name);
-    }
+int UpdateSuite(GoldenSuite suite, const JobSettings& jobs, const fs::path& drawn) {
+  const GoldenSuite found = suite;  // as the processes find it
+  std::string before = ContentOf(suite.lock);
+  const auto write = [&] {
+    std::string now = ContentOf(suite.lock);
+    if (now == before) return;
+    WriteLock(suite.lock_file(), suite.lock);
+    before = std::move(now);
+  };
+  Updating updating(suite, drawn);
+  try {
+    CheckInProcesses(found, jobs, [&](const CaseVerdict& verdict) { updating.Take(verdict); });
+  } catch (...) {
+    write();  // the pictures are there already
+    throw;
   }
   for (const std::string& name : suite.unknown_locks) {
     suite.lock.erase(name);
     Print("{:<24} removed from golden.lock: there is no .yaml of this name\n", name);
   }
-  if (ContentOf(suite.lock) != before) WriteLock(suite.lock_file(), suite.lock);
-  return is_complete ? 0 : 2;
+  write();
+  return updating.is_complete() ? 0 : 2;
 }
 
 }  // namespace kinescope::app

@@ -27,11 +27,18 @@ const char* LoudName(Outcome outcome) {
   return "NOT COMPARED";
 }
 
+std::string FaultOf(const CaseVerdict& verdict) {
+  for (const GoldenFinding& finding : verdict.findings) {
+    if (finding.kind == FindingKind::kFault) return finding.text;
+  }
+  return "";
+}
+
 bool HasCause(const CaseVerdict& verdict) {
-  return verdict.now && std::any_of(verdict.findings.begin(), verdict.findings.end(),
-                                    [](const GoldenFinding& finding) {
-                                      return finding.kind != FindingKind::kPicture;
-                                    });
+  return verdict.now && !verdict.accepted_pixels.empty() &&
+         std::any_of(
+             verdict.findings.begin(), verdict.findings.end(),
+             [](const GoldenFinding& finding) { return finding.kind != FindingKind::kPicture; });
 }
 
 std::vector<std::string> Explain(const CaseVerdict& verdict) {

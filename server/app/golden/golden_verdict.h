@@ -53,6 +53,9 @@ struct CaseVerdict {
   double secs = 0;
 };
 
+/// Why the new picture must not be accepted, though it was drawn; "": it may be.
+std::string FaultOf(const CaseVerdict& verdict);
+
 /// Whether CauseOf() explains the difference: it is of what was drawn, not only of accepted files.
 bool HasCause(const CaseVerdict& verdict);
 

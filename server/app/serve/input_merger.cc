@@ -1,7 +1,5 @@
 #include "server/app/serve/input_merger.h"
 
-#include "core/system/clocks.h"
-
 namespace kinescope::app {
 
 void InputMerger::TakeInputs() {
@@ -13,7 +11,7 @@ void InputMerger::TakeInputs() {
 }
 
 void InputMerger::OnSample(const BodySample& sample) {
-  const std::int64_t now = MonotonicNanos();
+  const std::int64_t now = now_();
   const std::int64_t waited = Overload::WaitedNanos(sample, now);
   has_samples_ = true;
   if (!overload_.Admit(sample.character, waited, now)) {
@@ -34,7 +32,7 @@ void InputMerger::AfterPoll() {
   if (std::exchange(has_samples_, false)) return;
   for (const auto& [character, sample] : skipped_) Process(sample, 0);
   skipped_.clear();
-  overload_.OnIdle(MonotonicNanos());
+  overload_.OnIdle(now_());
   builder_.OnCaughtUp();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/source.h"
+#include "core/system/clocks.h"
 #include "server/app/serve/change_mailbox.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/overload.h"
@@ -28,12 +29,13 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
 
   /// Receives the hand loads that came over ROS.
   using OnRosHandLoad = std::function<void(int character, const HandLoad& load)>;
+  using Clock = std::function<std::int64_t()>;
 
-  /// `ros`, `changes` and the functions may be null.
+  /// `ros`, `changes` and the functions may be null, but for `now`: the clock of the source.
   InputMerger(SceneBuilder& builder, Overload& overload, HandLoadMailbox& hand_loads,
               ros_bridge::RosBridge* ros, OnSubscribers on_subscribers = nullptr,
               ChangeMailbox* changes = nullptr, OnRosHandLoad on_hand_load = nullptr,
-              OnText on_mark = nullptr)
+              OnText on_mark = nullptr, Clock now = MonotonicNanos)
       : builder_(builder),
         overload_(overload),
         hand_loads_(hand_loads),
@@ -41,7 +43,8 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
         on_subscribers_(std::move(on_subscribers)),
         changes_(changes),
         on_hand_load_(std::move(on_hand_load)),
-        on_mark_(std::move(on_mark)) {}
+        on_mark_(std::move(on_mark)),
+        now_(std::move(now)) {}
 
   /// Call it also while no samples arrive, because ROS services wait for their answer.
   void TakeInputs();
@@ -70,6 +73,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   ChangeMailbox* const changes_;
   const OnRosHandLoad on_hand_load_;
   const OnText on_mark_;
+  const Clock now_;
   bool has_samples_ = false;           // since the last AfterPoll
   std::map<int, BodySample> skipped_;  // the newest of each character, if it was skipped
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/system/clocks.h"
 #include "server/app/commands.h"
 #include "server/app/serve/page_token.h"
 #include "server/app/serve/serve_config.h"
@@ -12,6 +13,7 @@
 #include "server/app/serve/server.h"
 #include "server/options/option_list.h"
 #include "server/ros/bridge.h"
+#include "server/source/paced_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -57,6 +59,8 @@ Command Make(const char* name, const char* about, bool with_page) {
     ServeConfig config = MakeServeConfig(*values, with_page);
     // A terminal is read by the person who opens the page; anything else may be a log that stays.
     config.shows_token = ::isatty(STDERR_FILENO) == 1;
+    // The moment at which it stands still is now.
+    if (config.stop_at) SetMonotonicClock(kStoppedOriginNanos + *config.stop_at);
     Server(config).Run();
     return 0;
   };

@@ -153,6 +153,15 @@ ros_bridge::BridgeConfig BridgeOf(const ServeOptions& options) {
   return config;
 }
 
+std::optional<std::int64_t> StopAtOf(const ServeOptions& options) {
+  if (!options.stop_at) return std::nullopt;
+  if (*options.udp_port != 0 || IsLiveUrl(*options.source)) {
+    throw UsageError("--stop_at=" + options.stop_at.ToText() +
+                     ": a live source has no such moment; expected " + RecordedSourceKinds());
+  }
+  return std::llround(*options.stop_at * 1e9);
+}
+
 // Without its page and pictures.
 ServeConfig BridgeConfigOf(const ServeOptions& options) {
   ServeConfig config;
@@ -161,13 +170,14 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.source_url = mvn::ReceivingFrom(config.source_url, *options.from);
   config.source_reach = mvn::DescribeReach(config.source_url);
   config.loop = *options.loop;
+  config.stop_at = StopAtOf(options);
   config.source.stream = {*options.stamps, mvn::Delivery::kPrompt};
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.source.subject_height_m = config.scene.height_m;
-  config.scene.makes_models_aside = true;
+  config.scene.makes_models_aside = !config.stop_at;
   config.alarms = alarms::LoadRules(*options.alarms);
   config.scene.view_frame = *options.camera_moves.camera_frame;
-  config.ros_mode = *options.ros;
+  config.ros_mode = config.stop_at ? ros_bridge::RosMode::kOff : *options.ros;
   if (config.ros_mode == ros_bridge::RosMode::kOff ||
       (config.ros_mode == ros_bridge::RosMode::kAuto && !ros_bridge::BuiltWithRos())) {
     return config;

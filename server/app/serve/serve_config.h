@@ -28,6 +28,7 @@ struct ServeConfig {
   std::string source_url;
   std::string source_reach;  // who can send to it, for the log; "": no sender, it does not listen
   bool loop = false;
+  std::optional<std::int64_t> stop_at;  // ns after the first sample; see PacedSource::UpTo()
   SourceSettings source;
   SceneOptions scene;
   alarms::Rules alarms;

@@ -12,6 +12,7 @@
 #include "core/system/utf8.h"
 #include "server/marks/mark_book.h"
 #include "server/options/text.h"
+#include "server/scene/scene_reader.h"
 
 namespace kinescope::app {
 namespace {
@@ -93,6 +94,7 @@ ServeOptions::ServeOptions()
           "grasp,lift,place,release,step,slip,talk,pain,discard",
           "up to nine names with commas between, each of 1 to 40 characters with a letter or digit",
           AreMarkNames),
+      stop_at(options::Number(0, {0, kLatestSecs, "s"})),
       ghost_opacity(GhostOpacity()),
       pictures(true),
       camera(1),
@@ -177,6 +179,12 @@ void ServeOptions::List(options::OptionList& option) {
   option("recordings_folder", recordings_folder,
          "existing folder for what is recorded, rendered and reported from the page; default: "
          "recordings, in ~/.local/state/kinescope or the state folder of the service");
+  option("stop_at", stop_at,
+         "time after the first sample of a recording at which it stands still, s: all before it is "
+         "read at once, and the page shows this moment; nothing is published to ROS");
+  option.HasNoEffect("loop", "with --stop_at", [this] { return bool(stop_at); });
+  option.HasNoEffect("ros", "with --stop_at",
+                     [this] { return bool(stop_at) && *ros != ros_bridge::RosMode::kOff; });
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
   trails.List(option);

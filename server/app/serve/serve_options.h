@@ -50,6 +50,7 @@ struct ServeOptions {
   options::Text tls_certificate, tls_key, base_path, trusted_proxies;
   options::Number history_minutes;
   options::Text marks_file, mark_names, recordings_folder;
+  options::Optional<options::Number> stop_at;  // s
   // As messages name them: "~token", "file.yaml:3: token"; "": not given.
   std::string token_given_as, viewer_token_given_as;
   FigureValue figure;

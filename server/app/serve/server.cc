@@ -36,8 +36,15 @@ void LogListening(const Source& source, const std::string& reach) {
 }
 
 // The motion of the built-in subject is made, not recorded.
-bool IsRecording(const ServeConfig& config) {
+bool IsFile(const ServeConfig& config) {
   return KindOfSource(config.source_url) == SourceKind::kFile;
+}
+
+std::unique_ptr<Source> SourceOf(const ServeConfig& config, mvn::DatagramSink* tap) {
+  SourceSettings settings = config.source;
+  settings.tap = tap;
+  if (config.stop_at) return OpenUpTo(config.source_url, *config.stop_at, settings);
+  return OpenAtTrueRate(config.source_url, config.loop, settings);
 }
 
 // Null: nothing can be recorded.
@@ -47,11 +54,6 @@ std::unique_ptr<recording::RawRecorder> RecorderOf(const ServeConfig& config,
   const bool has_datagrams = kind == SourceKind::kUdp || kind == SourceKind::kTcp;
   if (!config.page || !has_datagrams) return nullptr;
   return std::make_unique<recording::RawRecorder>(folder);
-}
-
-SourceSettings WithTap(SourceSettings settings, mvn::DatagramSink* tap) {
-  settings.tap = tap;
-  return settings;
 }
 
 std::unique_ptr<alarms::Webhook> WebhookOf(const ServeConfig& config) {
@@ -65,7 +67,7 @@ std::unique_ptr<alarms::Webhook> WebhookOf(const ServeConfig& config) {
 // Null for what cannot be read twice: a pipe.
 std::unique_ptr<RecordingLength> LengthOf(const ServeConfig& config) {
   std::error_code ignored;
-  if (!IsRecording(config) || !std::filesystem::is_regular_file(config.source_url, ignored)) {
+  if (!IsFile(config) || !std::filesystem::is_regular_file(config.source_url, ignored)) {
     return nullptr;
   }
   return std::make_unique<RecordingLength>(
@@ -106,8 +108,7 @@ Server::Server(const ServeConfig& config)
       listener_(config.page ? std::make_unique<http::Listener>(*config.page) : nullptr),
       recordings_(config.recordings, config.may_make_recordings),
       recorder_(RecorderOf(config, recordings_)),
-      source_(
-          OpenAtTrueRate(config.source_url, config.loop, WithTap(config.source, recorder_.get()))),
+      source_(SourceOf(config, recorder_.get())),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
       marks_(BookOf(config, recorder_.get())),
       webhook_(WebhookOf(config)),
@@ -115,7 +116,8 @@ Server::Server(const ServeConfig& config)
           config.alarms, IsLiveUrl(config.source_url),
           [this](const alarms::Alarm& alarm, alarms::Change change) { OnAlarm(alarm, change); }),
       overload_(/*may_skip=*/!config.ros),
-      is_recording_(IsRecording(config)),
+      is_recording_(IsFile(config) || config.stop_at),
+      stops_(config.stop_at.has_value()),
       length_(LengthOf(config)),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
                [this](const std::shared_ptr<SceneState>& state) { OnState(state); }),
@@ -213,12 +215,15 @@ void Server::AddGhosts(SceneState& state) const {
 }
 
 void Server::OnState(const std::shared_ptr<SceneState>& state) {
-  state->made_nanos = MonotonicNanos();
+  state->made_nanos = source_->now_nanos();
   AddGhosts(*state);
   alarms_.OnState(*state);
   if (ros_) ros_->Publish(*state);
   states_.Publish(state);
   if (history_) history_->Add(state);
+  // Samples that come at once would be left out.
+  constexpr std::uint64_t kSettleEach = 100;
+  if (history_ && stops_ && state->number % kSettleEach == 0) history_->Settle();
   if (live_pictures_) live_pictures_->OnState(state);
   if (ros_camera_) ros_camera_->OnState(state);
   if (surroundings_) surroundings_->OnState(state);
@@ -247,12 +252,13 @@ void Server::Run() {
       [this](int character, const HandLoad& load) {
         if (desk_) desk_->OnRosHandLoad(character, load);
       },
-      [this](const std::string& text) { ros_news_->OnMark(text); });
+      [this](const std::string& text) { ros_news_->OnMark(text); },
+      [this] { return source_->now_nanos(); });
   while (!StopRequested()) {
     const Source::State state = source_->Poll(kPollTimeout, inputs);
     inputs.TakeInputs();
     inputs.AfterPoll();
-    OnTime(MonotonicNanos());
+    OnTime(source_->now_nanos());
     UpdatePlayback(state == Source::State::kEnded);
     if (ros_ && ros_->status().shutdown_requested) {
       spdlog::info("shut down through ROS");
@@ -273,9 +279,17 @@ void Server::UpdatePlayback(bool has_ended) {
   if (length_ != nullptr) now->length_nanos = length_->nanos();
   if (before != nullptr) now->ended_nanos = before->ended_nanos;
   if (has_ended && !now->ended_nanos) now->ended_nanos = states_.Get()->made_nanos;
-  if (before == nullptr || *before != *now) {
-    playback_.Publish(std::make_shared<const Playback>(*now));
-  }
+  if (before != nullptr && *before == *now) return;
+  playback_.Publish(std::make_shared<const Playback>(*now));
+  const bool is_complete = now->ended_nanos && (length_ == nullptr || now->length_nanos);
+  if (stops_ && is_complete) LogStop(*now);
+}
+
+// Programs wait for this line: it comes when all that the page shows is there.
+void Server::LogStop(const Playback& playback) const {
+  const std::shared_ptr<const SceneState> state = states_.Get();
+  spdlog::info("stopped at {:.3f} s, sample {}", Secs(state->stamp_nanos - playback.start_nanos),
+               state->counter);
 }
 
 void Server::OnTime(std::int64_t now_nanos) {

@@ -61,6 +61,7 @@ class Server {
   void AddGhosts(SceneState& state) const;
   void OnTime(std::int64_t now_nanos);  // between polls
   void UpdatePlayback(bool has_ended);
+  void LogStop(const Playback& playback) const;
   void OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const;
   std::string Diagnostics() const;  // on the page's thread
 
@@ -86,6 +87,7 @@ class Server {
   Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
   const bool is_recording_;                        // else live, or the built-in subject
+  const bool stops_;                               // at a moment
   const std::unique_ptr<RecordingLength> length_;  // null: it cannot be found
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;

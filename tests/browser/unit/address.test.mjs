@@ -18,7 +18,17 @@ test('a moment in the address is that of the sample shown, never one before it',
   assert.equal(withShown(at('?t=5&camera=front'), { micros: null }).search, '?camera=front');
 });
 
-const ALL = { micros: 83_512_345_679, person: 2, joints: ['l5_s1', 'right_knee'], camera: 'front', tab: 'plots', window: 300,
+test('a moment of a recording is that of the sample shown, never one before it', () => {
+  for (const place of [0, 2.5, 2.508333, 83.000001, 600]) {
+    const read = shownIn(withShown(at('?camera=front'), { place })).place;
+    assert.ok(read >= place - 1e-9 && read < place + 0.00101, `${place} became ${read}`);
+  }
+  assert.equal(withShown(at(''), { place: 2.5 }).search, '?at=2.5');
+  assert.equal(withShown(at('?t=5&camera=front'), { micros: null, place: 1 }).search, '?camera=front&at=1');
+  for (const query of ['', '?at=', '?at=now', '?at=-5', '?at=Infinity']) assert.equal(shownIn(at(query)).place, null, query);
+});
+
+const ALL = { micros: 83_512_345_679, place: 2.5, person: 2, joints: ['l5_s1', 'right_knee'], camera: 'front', tab: 'plots', window: 300,
   view: 'phone', theme: 'dark' };
 
 test('all that a link says is read as it was written', () => {
@@ -37,9 +47,9 @@ test('what is not named stays, and null takes a value out', () => {
 });
 
 test('values that are none are ignored', () => {
-  const none = { micros: null, person: null, joints: null, camera: null, tab: null, window: null, view: null, theme: null };
-  assert.deepEqual(shownIn(at('?t=x&person=1.5&joint=<b>,A&camera=<img>&tab=%00&window=-3&view=cinema&theme=pink')), none);
-  assert.deepEqual(shownIn(at('?t=&person=&joint=&camera=&tab=&window=&view=&theme=')), none);
+  const none = { micros: null, place: null, person: null, joints: null, camera: null, tab: null, window: null, view: null, theme: null };
+  assert.deepEqual(shownIn(at('?t=x&at=x&person=1.5&joint=<b>,A&camera=<img>&tab=%00&window=-3&view=cinema&theme=pink')), none);
+  assert.deepEqual(shownIn(at('?t=&at=&person=&joint=&camera=&tab=&window=&view=&theme=')), none);
   assert.equal(shownIn(at(`?camera=${'a'.repeat(500)}`)).camera, null);
   assert.equal(shownIn(at(`?joint=${Array(500).fill('neck').join()}`)).joints.length, 15);
 });

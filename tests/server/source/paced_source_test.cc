@@ -102,6 +102,51 @@ TEST(PacedSource, ContinuesCounterAndTimeInALoop) {
   }
 }
 
+TEST(PacedSource, UpToAMomentDeliversAllBeforeItAtOnceAndNoneAfterIt) {
+  const auto source = PacedSource::UpTo(3'000'000, std::make_unique<ShortFile>());
+  Collector collector;
+  EXPECT_EQ(source->now_nanos(), kStoppedOriginNanos);
+  while (source->Poll(milliseconds(1000), collector) == Source::State::kMore) {
+    ASSERT_EQ(source->now_nanos(), collector.samples.back().arrival_nanos);
+  }
+  ASSERT_EQ(collector.samples.size(), 2u) << "of 0, 2 and 4 ms";
+  EXPECT_EQ(collector.characters, 1);
+  EXPECT_EQ(collector.samples[0].stamp_nanos, 1'000'000'000) << "the recording's own";
+  EXPECT_EQ(collector.samples[1].stamp_nanos, 1'002'000'000);
+  EXPECT_EQ(collector.samples[0].arrival_nanos, kStoppedOriginNanos) << "in each run";
+  EXPECT_EQ(collector.samples[1].arrival_nanos, kStoppedOriginNanos + 2'000'000);
+  EXPECT_EQ(source->now_nanos(), kStoppedOriginNanos + 3'000'000) << "and it stands still there";
+  EXPECT_EQ(source->Poll(milliseconds(1000), collector), Source::State::kEnded);
+  EXPECT_EQ(collector.samples.size(), 2u);
+  EXPECT_EQ(source->counters().samples, 2u);
+  EXPECT_EQ(source->playback()->start_nanos, 1'000'000'000);
+}
+
+TEST(PacedSource, UpToItsLastSampleReachesIt) {
+  const auto source = PacedSource::UpTo(4'000'000, std::make_unique<ShortFile>());
+  Collector collector;
+  while (source->Poll(milliseconds(1000), collector) == Source::State::kMore) {
+  }
+  EXPECT_EQ(collector.samples.size(), 3u);
+}
+
+TEST(PacedSource, UpToAMomentAfterItsEndSaysWhenItEnds) {
+  const auto source = PacedSource::UpTo(5'000'000, std::make_unique<ShortFile>());
+  Collector collector;
+  const auto play = [&] {
+    while (source->Poll(milliseconds(1000), collector) == Source::State::kMore) {
+    }
+  };
+  try {
+    play();
+    FAIL() << "it has no sample there";
+  } catch (const SourceError& error) {
+    EXPECT_STREQ(error.what(),
+                 "short: ends 0.004 s after its first sample, before 0.005 s; choose an earlier "
+                 "time");
+  }
+}
+
 using Steps = std::vector<std::function<void(SampleSink&)>>;
 
 // A recording of two people and a cluster of objects, as it lies in the file.

@@ -54,6 +54,20 @@ TEST(ServeConfig, UdpPortReplacesTheSource) {
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"udp_port", "9000"}}).source_url, "udp://:9000");
 }
 
+TEST(ServeConfig, StopsOnlyInARecordingAndPublishesNothingThen) {
+  const ServeConfig config = ConfigOf({{"source", "demo:lift"}, {"stop_at", "2.5"}});
+  EXPECT_EQ(config.stop_at, 2'500'000'000);
+  EXPECT_FALSE(config.ros);
+  EXPECT_FALSE(config.scene.makes_models_aside) << "its states are then the same in each run";
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}}).stop_at, std::nullopt);
+  for (const char* live : {"udp://:9763", "tcp://:9763", "ros:"}) {
+    EXPECT_THAT(ErrorOf({{"source", live}, {"stop_at", "2.5"}}),
+                HasSubstr("--stop_at=2.5: a live source has no such moment; expected demo:MOTION"));
+  }
+  EXPECT_THAT(ErrorOf({{"udp_port", "9000"}, {"source", "demo:lift"}, {"stop_at", "2.5"}}),
+              HasSubstr("a live source"));
+}
+
 TEST(ServeConfig, HasNoRosCameraWithoutRos) {
   const ServeConfig config = ConfigOf({{"ros", "off"}, {"pictures", "off"}});
   EXPECT_FALSE(config.ros);
