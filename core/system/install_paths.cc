@@ -26,7 +26,13 @@ fs::path FirstThatExists(const std::vector<fs::path>& candidates) {
 fs::path FindModule(const std::string& file_name) {
   const fs::path here = ExecutableFolder();
   return FirstThatExists({here / file_name, here / "../lib/kinescope" / file_name,
+                          here / "../../lib/kinescope" / file_name,
                           fs::path(KINESCOPE_BUILD_DIR) / "lib/kinescope" / file_name});
+}
+
+fs::path FindProgram() {
+  return FirstThatExists({ExecutableFolder() / "../libexec/kinescope/kinescope",
+                          fs::path(KINESCOPE_BUILD_DIR) / "libexec/kinescope/kinescope"});
 }
 
 fs::path FindResource(const std::string& name) {

@@ -13,4 +13,7 @@ std::filesystem::path FindModule(const std::string& file_name);
 /// Path of a file or folder of Kinescope, such as "web"; empty if not found.
 std::filesystem::path FindResource(const std::string& name);
 
+/// The program of all commands, which bin/kinescope starts; empty if it was not built.
+std::filesystem::path FindProgram();
+
 }  // namespace kinescope

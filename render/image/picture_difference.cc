@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <future>
 #include <optional>
 
 #include "render/image/color_distance.h"
@@ -270,12 +271,15 @@ class PixelPass {
 // The pictures have one size; one at least is transparent if there is a pair on black.
 void FindLayers(const PicturePair& pair, const std::optional<PicturePair>& on_black,
                 const ChangedBlocks& blocks, PictureDifference& difference) {
+  std::future<Structure> structure = std::async(std::launch::async, [&] {
+    return CompareStructure(pair.expected_luma, pair.actual_luma, blocks.is_changed);
+  });
   PixelPass pass(pair, on_black, difference.limits.color_distance);
   ForEachChangedRow(blocks, pair.expected.width, pair.expected.height,
                     [&](int y, int from, int to) { pass.VisitRow(y, from, to); });
   difference.light = pass.Light();
   difference.pixels = pass.TakePixels();
-  difference.structure = CompareStructure(pair.expected_luma, pair.actual_luma, blocks.is_changed);
+  difference.structure = structure.get();
 }
 
 // Luma of `image`, which differs in `blocks` only from the picture of `other`.

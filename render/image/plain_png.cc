@@ -3,7 +3,6 @@
 #include <libdeflate.h>
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -111,56 +110,77 @@ bool Parse(const std::uint8_t* bytes, std::size_t size, int most_side, PlainPng&
   return false;
 }
 
-int Paeth(int left, int up, int up_left) {
-  const int from_left = std::abs(up - up_left), from_up = std::abs(left - up_left);
-  const int from_up_left = std::abs(left + up - 2 * up_left);
-  if (from_left <= from_up && from_left <= from_up_left) return left;
-  return from_up <= from_up_left ? up : up_left;
+// The levels of a pixel, so that the processor computes with all of them at once.
+using Levels = std::uint8_t __attribute__((vector_size(4)));
+using WideLevels = std::int16_t __attribute__((vector_size(8)));
+
+Levels LevelsAt(const std::uint8_t* bytes) {
+  Levels levels;
+  std::memcpy(&levels, bytes, sizeof levels);
+  return levels;
 }
 
-// Replaces the differences in `row` by levels. `up` is the row above it, or zeros.
+WideLevels Wide(Levels levels) { return __builtin_convertvector(levels, WideLevels); }
+
+Levels Average(Levels left, Levels above) {
+  return (left & above) + ((left ^ above) >> 1);  // without a ninth bit
+}
+
+WideLevels Distance(WideLevels difference) { return difference < 0 ? -difference : difference; }
+
+// Of the PNG specification, section 9.4.
+Levels Paeth(Levels left, Levels above, Levels above_left) {
+  const WideLevels from_left_side = Wide(left) - Wide(above_left),
+                   from_above_side = Wide(above) - Wide(above_left);
+  const WideLevels from_left = Distance(from_above_side), from_above = Distance(from_left_side),
+                   from_corner = Distance(from_left_side + from_above_side);
+  const WideLevels nearer = from_above <= from_corner ? Wide(above) : Wide(above_left);
+  const WideLevels nearest =
+      (from_left <= from_above) & (from_left <= from_corner) ? Wide(left) : nearer;
+  return __builtin_convertvector(nearest, Levels);
+}
+
+// A row of RGBA from differences to what `predict` makes of its neighbours; `above` is the row
+// above. With three channels it reads one byte beyond the row.
+template <std::size_t kChannels, class Predict>
+void UnfilterRow(const std::uint8_t* differences, std::size_t width, const std::uint8_t* above,
+                 std::uint8_t* rgba, const Predict& predict) {
+  constexpr Levels kOpaque = {0, 0, 0, kChannels == 3 ? 255 : 0};
+  Levels left{}, above_left{};
+  for (std::size_t x = 0; x < width; ++x, differences += kChannels, above += 4, rgba += 4) {
+    const Levels up = LevelsAt(above);
+    left = (LevelsAt(differences) + predict(left, up, above_left)) | kOpaque;
+    above_left = up;
+    std::memcpy(rgba, &left, sizeof left);
+  }
+}
+
 template <std::size_t kChannels>
-bool Unfilter(int filter, std::uint8_t* row, const std::uint8_t* up, std::size_t bytes) {
-  const auto add = [&](const auto& predicted) {
-    for (std::size_t i = 0; i < bytes; ++i) {
-      const int left = i >= kChannels ? row[i - kChannels] : 0;
-      const int up_left = i >= kChannels ? up[i - kChannels] : 0;
-      row[i] = static_cast<std::uint8_t>(row[i] + predicted(left, int{up[i]}, up_left));
-    }
+bool UnfilterRow(int filter, const std::uint8_t* differences, std::size_t width,
+                 const std::uint8_t* above, std::uint8_t* rgba) {
+  const auto unfilter = [&](const auto& predict) {
+    UnfilterRow<kChannels>(differences, width, above, rgba, predict);
+    return true;
   };
   switch (filter) {
-    case 0: return true;
-    case 1: add([](int left, int, int) { return left; }); return true;
-    case 2: add([](int, int above, int) { return above; }); return true;
-    case 3: add([](int left, int above, int) { return (left + above) / 2; }); return true;
-    case 4: add(Paeth); return true;
+    case 0: return unfilter([](Levels, Levels, Levels) { return Levels{}; });
+    case 1: return unfilter([](Levels left, Levels, Levels) { return left; });
+    case 2: return unfilter([](Levels, Levels up, Levels) { return up; });
+    case 3: return unfilter([](Levels left, Levels up, Levels) { return Average(left, up); });
+    case 4: return unfilter(Paeth);
     default: return false;
   }
 }
 
-void SpreadRgb(const std::uint8_t* rgb, std::size_t count, std::uint8_t* rgba) {
-  for (std::size_t i = 0; i < count; ++i) {
-    rgba[4 * i] = rgb[3 * i];
-    rgba[4 * i + 1] = rgb[3 * i + 1];
-    rgba[4 * i + 2] = rgb[3 * i + 2];
-    rgba[4 * i + 3] = 255;
-  }
-}
-
 template <std::size_t kChannels>
-bool UnfilterAll(const PlainPng& png, std::uint8_t* filtered, std::uint8_t* rgba) {
-  const std::size_t bytes = png.row_bytes();
-  const std::vector<std::uint8_t> zeros(bytes);
-  const std::uint8_t* up = zeros.data();
-  for (std::size_t y = 0; y < png.height; ++y, filtered += 1 + bytes, rgba += 4 * png.width) {
-    std::uint8_t* const row = filtered + 1;
-    if (!Unfilter<kChannels>(*filtered, row, up, bytes)) return false;
-    up = row;
-    if (kChannels == 3) {
-      SpreadRgb(row, png.width, rgba);
-    } else {
-      std::memcpy(rgba, row, bytes);
-    }
+bool UnfilterAll(const PlainPng& png, const std::uint8_t* filtered, std::uint8_t* rgba) {
+  const std::vector<std::uint8_t> zeros(4 * png.width);
+  const std::uint8_t* above = zeros.data();
+  for (std::size_t y = 0; y < png.height; ++y) {
+    if (!UnfilterRow<kChannels>(*filtered, filtered + 1, png.width, above, rgba)) return false;
+    above = rgba;
+    filtered += 1 + png.row_bytes();
+    rgba += 4 * png.width;
   }
   return true;
 }
@@ -183,7 +203,9 @@ bool ReadPlainPng(const std::uint8_t* bytes, std::size_t size, int most_side, Im
   PlainPng png;
   if (!Parse(bytes, size, most_side, png)) return false;
   if (png.filtered_size() / kMostCompression > png.compressed_size) return false;
-  const std::unique_ptr<std::uint8_t[]> filtered(new std::uint8_t[png.filtered_size()]);
+  // One more: the last pixel of three channels is read as four.
+  const std::unique_ptr<std::uint8_t[]> filtered(new std::uint8_t[png.filtered_size() + 1]);
+  filtered[png.filtered_size()] = 0;
   if (!Inflate(png, filtered.get())) return false;
   Image read;
   SetSize(read, static_cast<int>(png.width), static_cast<int>(png.height));

@@ -1,49 +1,82 @@
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
+// The program that people start. It compares two pictures itself, which tests do thousands of
+// times; for everything else it becomes the program of all commands, whose ninety libraries take
+// longer to load than two pictures to compare.
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
+#include "core/system/install_paths.h"
 #include "core/system/standard_streams.h"
-#include "core/system/stop_signal.h"
 #include "core/system/utf8.h"
-#include "server/app/commands.h"
-#include "server/app/log.h"
-#include "server/ros/bridge.h"
+#include "server/app/golden/golden_compare.h"
+#include "server/app/print.h"
 
 namespace {
 
-// stdout belongs to results (--json, paths); what is said to people goes to stderr.
-void SetUpLog() {
-  auto log = spdlog::stderr_color_mt("kinescope");
-  kinescope::app::MakeLinesPrintable(*log);
-  spdlog::set_default_logger(log);
+using namespace kinescope;
+
+// `golden compare A B`, without options.
+bool IsPlainComparison(int argc, char** argv) {
+  if (argc != 5 || std::string(argv[1]) != "golden" || std::string(argv[2]) != "compare") {
+    return false;
+  }
+  return argv[3][0] != '-' && argv[4][0] != '-';
 }
 
-// A node ends another one of its name. A look at a graph must not end the Kinescope that publishes
-// to it.
-std::string NodeName(int argc, char** argv) {
-  const std::string command = argc > 1 ? argv[1] : "";
-  return command == "inspect" || command == "urdf" ? "kinescope_" + command : "kinescope";
+// Pixels come into memory that was never used. The kernel provides it page by page, which takes as
+// long as comparing them unless pages are large.
+void UseLargePages() {
+  constexpr std::size_t kBytes = std::size_t{64} << 20, kPage = std::size_t{2} << 20;
+  ::mallopt(M_ARENA_MAX, 1);
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  ::mallopt(M_TOP_PAD, static_cast<int>(kBytes));
+  ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(2 * kBytes));
+  void* volatile grows = std::malloc(std::size_t{1} << 20);
+  std::free(grows);
+  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kPage - 1);
+  // Without them it is only slower.
+  static_cast<void>(
+      ::madvise(reinterpret_cast<void*>(end - kBytes + kPage), kBytes - kPage, MADV_HUGEPAGE));
+}
+
+int Compare(const char* one, const char* other) {
+  UseLargePages();
+  const app::PictureVerdict verdict = app::ComparePictures(one, other, "");
+  for (const std::string& line : app::LinesOf(verdict)) app::Print("{}\n", line);
+  FlushStandardOutput();
+  return verdict.is_same ? 0 : 1;
+}
+
+[[noreturn]] void Become(const std::filesystem::path& program, char** argv) {
+  if (program.empty()) {
+    throw std::runtime_error(
+        "libexec/kinescope/kinescope was not found beside bin; build or install Kinescope "
+        "completely");
+  }
+  ::execv(program.c_str(), argv);
+  throw std::runtime_error("cannot start " + program.string() + ": " +
+                           std::generic_category().message(errno));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace kinescope;
   try {
+    if (!IsPlainComparison(argc, argv)) Become(FindProgram(), argv);
     OpenStandardStreams();
-    SetUpLog();
-    CatchStopSignals();
-    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error like a full disk
-    std::signal(SIGPIPE, SIG_IGN);  // a log without a reader (2>&1 | head) ends nothing
-    ros_bridge::TakeRosArguments(argc, argv, NodeName(argc, argv));
-
-    const int exit_code = app::RunCommandLine(argc, argv, app::AllCommands());
-    FlushStandardOutput();
-    return exit_code;
+    std::signal(SIGPIPE, SIG_IGN);
+    return Compare(argv[3], argv[4]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "kinescope: %s\n", PrintableLine(error.what()).c_str());
     return 2;

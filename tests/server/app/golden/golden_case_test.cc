@@ -119,7 +119,7 @@ TEST_F(GoldenCaseFile, HasAWrittenPose) {
           flexion = angles[urdf::jRightElbow].z();
           ghost_x = state.ghosts.at(0).person.links[urdf::kPelvis].position.x();
         });
-    Draw(golden_case, renderer);
+    Draw(golden_case, renderer, [](const auto&) {});
     EXPECT_NEAR(flexion, 90, 1e-6) << source;
     EXPECT_NEAR(ghost_x, 1, 1e-6) << source;
     EXPECT_THAT(InputsOf(golden_case), ::testing::SizeIs(1)) << "no file is read";
