@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,9 @@ struct SceneMarker {
   bool mesh_has_own_colors = false;  // use colours of the file, where it has any, instead of
                                      // `color`
 };
+
+/// All that stand in a scene at a time.
+using MarkerList = std::vector<std::shared_ptr<const SceneMarker>>;
 
 constexpr std::size_t kMaxMarkerPoints = 100'000;  // per marker
 constexpr std::size_t kMaxMarkerText = 200;        // bytes

@@ -11,6 +11,7 @@
 #include "core/body_sample.h"
 #include "core/duration_histogram.h"
 #include "core/playback.h"
+#include "core/scene_marker.h"
 #include "core/system/clocks.h"
 
 namespace kinescope {
@@ -47,6 +48,8 @@ class SampleSink {
   virtual void OnCharacter(const Character& character) = 0;
   virtual void OnSample(const BodySample& sample) = 0;
   virtual void OnObjects(const ObjectsSample&) {}
+  /// The markers of a recording from the next sample on, in place of those before.
+  virtual void OnRecordedMarkers(const MarkerList&) {}
 };
 
 class Source {

@@ -11,9 +11,15 @@ struct RecordingSink : SampleSink {
   std::vector<Character> characters;
   std::vector<BodySample> samples;
   std::vector<ObjectsSample> objects;
+  std::vector<MarkerList> markers;  // of each sample
+  MarkerList shown;
 
   void OnCharacter(const Character& character) override { characters.push_back(character); }
-  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
+  void OnSample(const BodySample& sample) override {
+    samples.push_back(sample);
+    markers.push_back(shown);
+  }
+  void OnRecordedMarkers(const MarkerList& all) override { shown = all; }
   void OnObjects(const ObjectsSample& sample) override { objects.push_back(sample); }
 };
 

@@ -318,13 +318,13 @@ std::string WriteUrdf(const HumanModel& human) {
   const bool has_gloves = human.gloves[kRight] || human.gloves[kLeft];
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
-      "<!-- A person of {:.3f} m and {:.1f} kg, written by Kinescope. Each joint turns about y, "
+      "<!-- A person of {:.3f} m and {:.1f} kg, {}. Each joint turns about y, "
       "then\n"
       "     x, then z. Link frames: x forward, y left, z up in the N-pose. -->\n"
       "<robot name=\"{}\">\n"
       "  <material name=\"body\"><color rgba=\"{:.6g} {:.6g} {:.6g} 1\"/></material>\n",
-      human.skeleton.height, TotalMass(human.body), Cleaned(human.model_name), human.body_rgb[0],
-      human.body_rgb[1], human.body_rgb[2]);
+      human.skeleton.height, TotalMass(human.body), kWrittenByKinescope, Cleaned(human.model_name),
+      human.body_rgb[0], human.body_rgb[1], human.body_rgb[2]);
   if (has_gloves) {
     text += "  <material name=\"glove\"><color rgba=\"0.55 0.60 0.68 1\"/></material>\n";
   }

@@ -29,6 +29,9 @@ namespace kinescope::urdf {
 
 inline constexpr int kMaxProps = 4;
 
+/// Part of a comment at the beginning of each URDF that is written here.
+inline constexpr char kWrittenByKinescope[] = "written by Kinescope";
+
 struct HumanModel {
   std::string model_name = "skeleton";  // prefix of link and joint names, name of the robot
   Skeleton skeleton;

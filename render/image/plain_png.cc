@@ -136,7 +136,7 @@ Levels Paeth(Levels left, Levels above, Levels above_left) {
                    from_corner = Distance(from_left_side + from_above_side);
   const WideLevels nearer = from_above <= from_corner ? Wide(above) : Wide(above_left);
   const WideLevels nearest =
-      (from_left <= from_above) & (from_left <= from_corner) ? Wide(left) : nearer;
+      ((from_left <= from_above) & (from_left <= from_corner)) ? Wide(left) : nearer;
   return __builtin_convertvector(nearest, Levels);
 }
 

@@ -1,5 +1,5 @@
-/// A subcommand: its options and what it runs. main.cc lists them; command_line.cc shows them to
-/// users.
+/// A subcommand: its options and what it runs. commands.cc lists them; command_line.cc shows them
+/// to users.
 #pragma once
 
 #include <functional>

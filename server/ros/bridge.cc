@@ -60,8 +60,8 @@ class Bridge : public RosBridge {
  public:
   explicit Bridge(const BridgeConfig& config)
       : config_(config),
-        registration_(config.initial_urdf, config.initial_meshes, config.tf != "off",
-                      MakeWiring()) {}
+        registration_(config.description, config.initial_urdf, config.initial_meshes,
+                      config.tf != "off", MakeWiring()) {}
 
   void PublishView(const RosImage& picture) override {
     if (const auto view = registration_.View()) view->Publish(picture);

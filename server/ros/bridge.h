@@ -27,7 +27,10 @@ struct BridgeConfig {
   std::string joint_states = "computed";  // or "streamed": type 20 with the mapping of
                                           // xsens_mvn_ros
 
-  /// Content of robot_description until the first person appears; "": not set until then. RViz
+  /// Parameter of the first person's URDF; "": robot_description, or human_description where
+  /// another program has set that.
+  std::string description;
+  /// Content of that parameter until the first person appears; "": not set until then. RViz
   /// reads it once when it starts, which with one launch file is before the first sample.
   std::string initial_urdf;
   /// The meshes that initial_urdf names, written before it is set; null: it names none.

@@ -152,7 +152,7 @@ bool MasterIsReachable() {
 
 void HurryRoscpp() {
   ros::master::setRetryTimeout(ros::WallDuration(0.001));  // 0 would be without limit
-  LimitLastXmlRpcCalls(kMasterPatience);
+  LimitLastXmlRpcCalls(kLastPatience);
 }
 
 void LeaveRos() {

@@ -137,10 +137,8 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
   MarkerWriter out(message, person, names, reference_frame, frames);
   const double stature = person.model->human.skeleton.height;
   for (const JointLoad& load : person.loads) {
-    Marker& sphere =
-        out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
-                      SphereRadius(load.joint, load.load_class, stature), ColorOf(load.load_class));
-    sphere.text = load.reason;
+    out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
+                  SphereRadius(load.joint, load.load_class, stature), ColorOf(load.load_class));
   }
   if (person.com) {
     out.AddToLink(urdf::kPelvis, kCom, 0, *person.com, kComRadius, kComColor);
@@ -165,6 +163,13 @@ void MakeStale(double stature, visualization_msgs::MarkerArray& message) {
       marker.action = Marker::DELETE;
     }
   }
+}
+
+bool IsOwnMarkerNamespace(const std::string& ns) {
+  for (const char* const own : {kLoads, kCom, kCop, kSupport, kForces, kHandLoads}) {
+    if (ns == own) return true;
+  }
+  return false;
 }
 
 }  // namespace kinescope::ros_bridge

@@ -43,4 +43,7 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
 /// are unknown now.
 void MakeStale(double stature, visualization_msgs::MarkerArray& message);
 
+/// Whether it is a namespace of these markers.
+bool IsOwnMarkerNamespace(const std::string& ns);
+
 }  // namespace kinescope::ros_bridge

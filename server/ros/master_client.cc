@@ -4,6 +4,8 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/system/starts_with.h"
@@ -65,8 +67,19 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
   MasterReply reply;
   if (client.executeNonBlock(method, all)) {
     const auto end = std::chrono::steady_clock::now() + timeout;
-    client._disp.work(std::chrono::duration<double>(timeout).count());
-    const bool is_late = std::chrono::steady_clock::now() >= end;
+    // In short steps: the end of the program may leave less time meanwhile.
+    constexpr std::chrono::milliseconds kStep(100), kNone(0);
+    bool is_late = false;
+    while (true) {
+      const auto now = std::chrono::steady_clock::now();
+      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - now);
+      const auto step = std::min(kStep, XmlRpcTimeLeft(std::max(kNone, rest)));
+      is_late = step == kNone;
+      if (is_late) break;
+      client._disp.work(std::chrono::duration<double>(step).count());
+      // With nothing left to wait for it returns at once.
+      if (std::chrono::steady_clock::now() - now < step / 2) break;
+    }
     XmlRpcValue response;
     const bool has_begun = !client._header.empty() || !client._response.empty();
     const bool is_done = client.executeCheckDone(response);

@@ -14,6 +14,9 @@ inline constexpr std::chrono::seconds kAskMasterEvery{1};  // interval of the re
 inline constexpr std::chrono::seconds kMasterPatience{
     3};  // the master of a busy machine may take a second to answer
 
+/// Of all calls together while the program ends.
+inline constexpr std::chrono::milliseconds kLastPatience{1500};
+
 struct MasterReply {
   enum class Code {
     kNoAnswer,  // not reachable, or no answer in time

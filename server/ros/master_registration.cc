@@ -28,6 +28,7 @@
 #include "server/ros/raw_message.h"
 #include "server/ros/tcpros_limits.h"
 #include "server/ros/xmlrpc_limits.h"
+#include "urdf/human_urdf.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -62,10 +63,11 @@ XmlRpcValue Typed(const std::string& text) {
 
 }  // namespace
 
-MasterRegistration::MasterRegistration(std::string initial_urdf,
+MasterRegistration::MasterRegistration(std::string description, std::string initial_urdf,
                                        std::shared_ptr<const MeshFiles> initial_meshes,
                                        bool with_tf, InputWiring wiring)
-    : initial_urdf_(std::move(initial_urdf)),
+    : description_(std::move(description)),
+      initial_urdf_(std::move(initial_urdf)),
       initial_meshes_(std::move(initial_meshes)),
       with_tf_(with_tf),
       wiring_(std::move(wiring)) {
@@ -198,6 +200,7 @@ void MasterRegistration::RegisterRegularly() {
     if (!is_known) {
       registered_.clear();
       described_.clear();
+      description_names_.clear();
       has_arguments_ = false;
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
@@ -376,30 +379,82 @@ void MasterRegistration::SetParameters() {
     }
     has_arguments_ = true;
   }
-  std::map<std::string, std::shared_ptr<const PersonModel>> models;
+  SetDescriptions();
+}
+
+// Whether another program has set it. What a Kinescope has written may be replaced.
+bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
+  constexpr std::size_t kBeginning = 400;  // bytes, in which a URDF of ours says so
+  XmlRpcValue arguments;
+  arguments[0] = ros::names::resolve(parameter);
+  MasterReply has = master_.Call("hasParam", arguments, kMasterPatience);
+  answers = has.code == MasterReply::Code::kGood;
+  if (!answers || has.value.getType() != XmlRpcValue::TypeBoolean) return answers;
+  if (!static_cast<bool>(has.value)) return false;
+  MasterReply set = master_.Call("getParam", arguments, kMasterPatience);
+  if (set.code == MasterReply::Code::kNoAnswer && set.problem.empty()) answers = false;
+  if (set.code != MasterReply::Code::kGood) return true;  // one that is too large, for example
+  if (set.value.getType() != XmlRpcValue::TypeString) return true;
+  const auto& text = static_cast<std::string&>(set.value);
+  return text.substr(0, kBeginning).find(urdf::kWrittenByKinescope) == std::string::npos;
+}
+
+// The parameter of a URDF at this master; nullopt: the master does not answer. A robot keeps its
+// own.
+std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& prefix) {
+  const auto known = description_names_.find(prefix);
+  if (known != description_names_.end()) return known->second;
+  if (prefix.empty() && !description_.empty()) return description_names_[prefix] = description_;
+  const std::string usual = prefix + kDescription;
+  for (const std::string& name :
+       {usual, prefix + "human_description", "~" + prefix + "human_description"}) {
+    bool answers = true;
+    const bool is_others = IsOthers(name, answers);
+    if (!answers) return std::nullopt;
+    if (is_others) continue;
+    if (name != usual) {
+      spdlog::warn(
+          "the parameter {} belongs to another program and stays as it is: the URDF of the person "
+          "is in {} (--description sets another name)",
+          ros::names::resolve(usual), ros::names::resolve(name));
+    }
+    return description_names_[prefix] = name;
+  }
+  return description_names_[prefix] = "~" + prefix + "human_description";
+}
+
+// Stops at the first that the master does not accept; the rest is tried again next time.
+void MasterRegistration::SetDescriptions() {
+  std::map<std::string, std::shared_ptr<const PersonModel>> models;  // by prefix
   bool has_met_nobody = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     has_met_nobody = slots_.empty();
     for (const auto& [character, slot] : slots_) {
-      if (slot.model != nullptr) models[slot.prefix + kDescription] = slot.model;
+      if (slot.model != nullptr) models[slot.prefix] = slot.model;
     }
   }
-  if (has_met_nobody && !initial_urdf_.empty() && described_.count(kDescription) == 0) {
-    if (initial_meshes_) initial_meshes_->Provide();
-    if (!SetParameter(kDescription, initial_urdf_)) return;
-    described_[kDescription] = {0, 0, initial_meshes_};
+  if (has_met_nobody && !initial_urdf_.empty()) {
+    const std::optional<std::string> name = DescriptionOf("");
+    if (!name) return;
+    if (described_.count(*name) == 0) {
+      if (initial_meshes_) initial_meshes_->Provide();
+      if (!SetParameter(*name, initial_urdf_)) return;
+      described_[*name] = {0, 0, initial_meshes_};
+    }
   }
-  for (const auto& [name, model] : models) {
-    const auto set = described_.find(name);
+  for (const auto& [prefix, model] : models) {
+    const std::optional<std::string> name = DescriptionOf(prefix);
+    if (!name) return;
+    const auto set = described_.find(*name);
     const std::int64_t now = MonotonicNanos();
     if (set != described_.end() && (set->second.revision == model->revision ||
                                     now - set->second.set_nanos < kDescribeEveryNanos)) {
       continue;
     }
     if (model->mesh_files) model->mesh_files->Provide();
-    if (!SetParameter(name, model->urdf_xml)) return;
-    described_[name] = {model->revision, now, model->mesh_files};
+    if (!SetParameter(*name, model->urdf_xml)) return;
+    described_[*name] = {model->revision, now, model->mesh_files};
   }
 }
 

@@ -52,17 +52,19 @@ struct InputWiring {
 
 class MasterRegistration {
  public:
-  /// `initial_urdf`: robot_description until the first person, with the meshes that it names; "":
-  /// none. @pre ros::init was called.
-  MasterRegistration(std::string initial_urdf, std::shared_ptr<const MeshFiles> initial_meshes,
-                     bool with_tf, InputWiring wiring);
+  /// `description`: parameter of the first person's URDF; "": robot_description, or
+  /// human_description where another program has set that. `initial_urdf`: its value until the
+  /// first person, with the meshes that it names; "": none. @pre ros::init was called.
+  MasterRegistration(std::string description, std::string initial_urdf,
+                     std::shared_ptr<const MeshFiles> initial_meshes, bool with_tf,
+                     InputWiring wiring);
   ~MasterRegistration();  // unregisters the topics
   MasterRegistration(const MasterRegistration&) = delete;
   MasterRegistration& operator=(const MasterRegistration&) = delete;
 
   /// Adds a person, or updates its model. The topics of the first person are `~joint_states` and so
-  /// on, those of others `~<model>/joint_states`; `robot_description` follows the same rule. Never
-  /// blocks; any thread.
+  /// on, those of others `~<model>/joint_states`; the URDF follows the same rule. Never blocks; any
+  /// thread.
   void SetPerson(int character, std::shared_ptr<const PersonModel> model);
 
   /// Gives back the memory of a person who has left; the topics stay, for the person's return.
@@ -106,6 +108,9 @@ class MasterRegistration {
   ros::Publisher Topic(const std::string& name);
   bool RegisterAll();
   void SetParameters();
+  void SetDescriptions();
+  bool IsOthers(const std::string& parameter, bool& answers);
+  std::optional<std::string> DescriptionOf(const std::string& prefix);
   bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
@@ -117,6 +122,7 @@ class MasterRegistration {
     std::shared_ptr<const MeshFiles> files;  // RViz reads them whenever it likes
   };
 
+  const std::string description_;  // parameter of the first person; "": one that is free
   const std::string initial_urdf_;
   const std::shared_ptr<const MeshFiles> initial_meshes_;
   const bool with_tf_;
@@ -145,7 +151,8 @@ class MasterRegistration {
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
   std::optional<ros::Subscriber> marks_;              // registered at this master
-  std::map<std::string, Description> described_;      // by name of the parameter
+  std::map<std::string, std::string> description_names_;  // by prefix, at this master
+  std::map<std::string, Description> described_;          // by name of the parameter
   bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
   bool was_registered_ = false;    // registered at least once, at any master
   bool master_forgot_us_ = false;  // and still does: then it is not said each time

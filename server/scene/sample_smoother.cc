@@ -16,6 +16,11 @@ void SampleSmoother::OnObjects(const ObjectsSample& sample) {
   PassOn();
 }
 
+void SampleSmoother::OnRecordedMarkers(const MarkerList& markers) {
+  waiting_.push_back({markers, false});
+  PassOn();
+}
+
 // A repeated stamp has no motion of its own; a gap and a sample without motion end that before
 // them.
 void SampleSmoother::OnSample(const BodySample& sample) {
@@ -56,6 +61,8 @@ void SampleSmoother::PassOn() {
       }
     } else if (const auto* const character = std::get_if<Character>(&next.event)) {
       to_.OnCharacter(*character);
+    } else if (const auto* const markers = std::get_if<MarkerList>(&next.event)) {
+      to_.OnRecordedMarkers(*markers);
     } else {
       to_.OnObjects(std::get<ObjectsSample>(next.event));
     }

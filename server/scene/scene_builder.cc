@@ -253,10 +253,21 @@ void SceneBuilder::PlaceRobots() {
   current_.surroundings += 1;
 }
 
-void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers) {
-  current_.markers = std::move(markers);
-  current_.surroundings += 1;
+void SceneBuilder::SetMarkers(MarkerList markers) {
+  node_markers_ = std::move(markers);
+  PlaceMarkers();
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+}
+
+void SceneBuilder::OnRecordedMarkers(const MarkerList& markers) {
+  recorded_markers_ = markers;
+  PlaceMarkers();
+}
+
+void SceneBuilder::PlaceMarkers() {
+  current_.markers = recorded_markers_;
+  current_.markers.insert(current_.markers.end(), node_markers_.begin(), node_markers_.end());
+  current_.surroundings += 1;
 }
 
 void SceneBuilder::OnCaughtUp() {

@@ -59,6 +59,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Of a recording: `motion` is filtered without lag; null: as of a stream.
   void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
   void OnObjects(const ObjectsSample& sample) override;
+  void OnRecordedMarkers(const MarkerList& markers) override;
 
   /// Valid from the next sample on. @pre FindDefect(settings) is ""
   void SetLoads(const loads::LoadSettings& settings);
@@ -79,8 +80,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Robots whose lowest points are on z = 0: they stand on the floor from the next state on.
   void SetRobots(std::vector<RobotState> robots);
 
-  /// Sets the external markers from the next sample on; at once while no samples arrive.
-  void SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers);
+  /// Sets the markers of other nodes, beside those of the recording, from the next sample on; at
+  /// once while no samples arrive.
+  void SetMarkers(MarkerList markers);
 
   /// How long the next samples waited in this machine before they were processed, ns; part of the
   /// states.
@@ -113,6 +115,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
+  void PlaceMarkers();
   void PlaceRobots();
 
   struct LeftOut {
@@ -139,7 +142,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::int64_t waited_nanos_ = 0;                      // see SetWaited()
   HeldHeading view_heading_;
   RateMeter rate_;
-  SceneState current_;              // without its people, which Publish adds
+  SceneState current_;  // without its people, which Publish adds
+  MarkerList recorded_markers_, node_markers_;
   std::vector<RobotState> robots_;  // on z = 0
   double robots_floor_z_ = 0;       // where those of current_ stand
 };

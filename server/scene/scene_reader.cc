@@ -96,6 +96,10 @@ void SceneReader::FanOut::OnObjects(const ObjectsSample& sample) {
   for (SmoothSampleSink* const each : to) each->OnObjects(sample);
 }
 
+void SceneReader::FanOut::OnRecordedMarkers(const MarkerList& markers) {
+  for (SmoothSampleSink* const each : to) each->OnRecordedMarkers(markers);
+}
+
 std::shared_ptr<const SceneState> SceneReader::Next() {
   constexpr std::chrono::milliseconds kBetweenChecks(100);
   while (ready_.empty() && !ended_) {

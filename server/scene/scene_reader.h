@@ -72,6 +72,7 @@ class SceneReader {
     void OnCharacter(const Character& character) override;
     void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
     void OnObjects(const ObjectsSample& sample) override;
+    void OnRecordedMarkers(const MarkerList& markers) override;
     std::vector<SmoothSampleSink*> to;
   };
 

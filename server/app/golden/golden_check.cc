@@ -140,14 +140,18 @@ class PictureCheck {
   // A mask hides what lies under it, but never a load: its class is what people look for.
   void CompareFacts(const PictureFacts& expected, const PictureFacts& actual) {
     const GoldenCase& read = *found_.read;
-    auto findings = kinescope::app::Compare(expected, actual, read.limits->place_px);
     const auto is_hidden = [&](const GoldenFinding& finding) {
       return finding.kind != FindingKind::kClass && finding.kind != FindingKind::kLoad &&
              finding.x_px && IsMasked(masks_, *finding.x_px, *finding.y_px);
     };
-    findings.erase(std::remove_if(findings.begin(), findings.end(), is_hidden), findings.end());
+    const auto outside_masks = [&](std::vector<GoldenFinding> findings) {
+      findings.erase(std::remove_if(findings.begin(), findings.end(), is_hidden), findings.end());
+      return findings;
+    };
+    const auto findings =
+        outside_masks(kinescope::app::Compare(expected, actual, read.limits->place_px));
     if (findings.empty() && read.limits->reasons.count("place") > 0 &&
-        !kinescope::app::Compare(expected, actual).empty()) {
+        !outside_masks(kinescope::app::Compare(expected, actual)).empty()) {
       NoteTolerance("place");
     }
     verdict_.findings.insert(verdict_.findings.end(), findings.begin(), findings.end());

@@ -134,13 +134,13 @@ void GoldenReview::Restore(const CaseVerdict& verdict) {
     accepted_.erase(verdict.name);
     restorable_.erase(verdict.name);
     throw std::runtime_error(
-        "is not accepted any more: it was changed beside this review; look at what is there");
+        "is not accepted any more: another command has changed it since; run check again");
   }
   const auto before = restorable_.find(verdict.name);
   if (before == restorable_.end()) {
     throw std::runtime_error(
-        fmt::format("was accepted before this review was started; version control has what was "
-                    "accepted earlier: {} and its part of {}",
+        fmt::format("was accepted before this review began, so only version control can restore "
+                    "what it replaced: {} and its part of {}",
                     picture.string(), suite.lock_file().string()));
   }
   if (before->second.entry) {

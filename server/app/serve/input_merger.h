@@ -56,6 +56,9 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override { builder_.OnObjects(sample); }
+  void OnRecordedMarkers(const MarkerList& markers) override {
+    builder_.OnRecordedMarkers(markers);
+  }
 
  private:
   void OnHandLoad(int character, const HandLoad& load) override;

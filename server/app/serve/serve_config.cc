@@ -146,6 +146,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
 ros_bridge::BridgeConfig BridgeOf(const ServeOptions& options) {
   ros_bridge::BridgeConfig config;
   config.reference_frame = *options.reference_frame;
+  config.description = *options.description;
   config.tf = *options.tf;
   config.joint_states = *options.joint_angle_source;
   config.external_scale = *options.external_scale;

@@ -42,6 +42,8 @@ bool IsTopicName(const std::string& text) {
          (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
 }
 
+bool IsTopicNameOrEmpty(const std::string& text) { return text.empty() || IsTopicName(text); }
+
 bool AreTopicNames(const std::string& text) {
   const std::vector<std::string> names = options::SplitItems(text);
   return names.size() <= kMaxMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
@@ -85,6 +87,7 @@ ServeOptions::ServeOptions()
           ros_bridge::RosMode::kAuto),
       reference_frame("world", "a TF frame name: letters, digits, _ and /, not beginning with /",
                       IsFrameName),
+      description("", "the name of a parameter, such as human_description", IsTopicNameOrEmpty),
       tf(Words({"flat", "tree", "off"}), "flat"),
       joint_angle_source(Words({"computed", "streamed"}), "computed"),
       bind_ip("127.0.0.1"),
@@ -127,6 +130,9 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option.Group("ROS");
   option("ros", ros, "auto: publish when a master is reachable");
   option("reference_frame", reference_frame, "parent frame of all TF frames");
+  option("description", description,
+         "parameter that gets the URDF of the first person; default: robot_description, or "
+         "human_description where another program has set that");
   option("tf", tf, "TF frames: flat (as xsens_mvn_ros), as a tree, or none");
   option("joint_angle_source", joint_angle_source,
          "joint angles in ~joint_states: computed from the poses, or streamed by MVN");
@@ -134,7 +140,8 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option(
       "external_scale", external_scale,
       "factor of joint moments that are received over ROS; -1 for a program that sends reactions");
-  for (const char* name : {"reference_frame", "tf", "joint_angle_source", "external_scale"}) {
+  for (const char* name :
+       {"reference_frame", "description", "tf", "joint_angle_source", "external_scale"}) {
     option.HasNoEffect(name, "with --ros=off",
                        [this] { return *ros == ros_bridge::RosMode::kOff; });
   }

@@ -40,7 +40,7 @@ struct ServeOptions {
   LoadOptions loads;
   // ROS
   options::Choice<ros_bridge::RosMode> ros;
-  options::Text reference_frame;
+  options::Text reference_frame, description;
   options::Choice<std::string> tf, joint_angle_source;
   FactorValue external_scale;
   // page and pictures

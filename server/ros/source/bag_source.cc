@@ -9,6 +9,7 @@
 
 #include "core/system/errors.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/source/bag_markers.h"
 #include "server/ros/source/bag_messages.h"
 #include "server/ros/source/transform_people.h"
 
@@ -35,6 +36,7 @@ class BagSource : public Source {
  public:
   explicit BagSource(const std::string& path) : name_(path), messages_(OpenBagFile(path), IsUsed) {
     ReadNames();
+    world_ = FindWorld();
   }
 
   State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
@@ -45,11 +47,17 @@ class BagSource : public Source {
   double nominal_rate_hz() const override { return rate_hz_; }
 
  private:
-  static bool IsUsed(const BagConnection& connection) {
+  static bool HasTransforms(const BagConnection& connection) {
     return IsMoving(connection.topic) || IsStatic(connection.topic);
+  }
+  static bool IsUsed(const BagConnection& connection) {
+    return HasTransforms(connection) || BagMarkers::IsMarkers(connection);
   }
 
   void ReadNames();
+  /// The frame of the first sample, in which markers stand from the beginning; "" if none comes
+  /// soon. @pre people_ are known
+  std::string FindWorld();
   /// @throws SourceError unless the bag ends as it should, or is only truncated.
   void CheckEnding(const BagMessages& messages) const;
   /// Why nothing of `message` can be used, or null; otherwise it is in message_.
@@ -61,6 +69,8 @@ class BagSource : public Source {
   BagMessages messages_;
   tf2_msgs::TFMessage message_;
   TransformPeople people_{0};
+  BagMarkers markers_;
+  std::string world_;
   bool has_ended_ = false;
   SourceCounters counters_;
   double rate_hz_ = 0;
@@ -71,7 +81,7 @@ SourceError ErrorIn(const std::string& name, const std::string& what) {
 }
 
 void BagSource::ReadNames() {
-  BagMessages ahead(OpenBagFile(name_), IsUsed);
+  BagMessages ahead(OpenBagFile(name_), HasTransforms);
   std::map<std::string, Appearances> appearances;
   std::int64_t end = 0;
   bool has_ended = true;
@@ -111,6 +121,28 @@ void BagSource::ReadNames() {
   if (pelvis.count < 2 || pelvis.last_nanos <= pelvis.first_nanos) return;
   rate_hz_ = static_cast<double>(pelvis.count - 1) * 1e9 /
              static_cast<double>(pelvis.last_nanos - pelvis.first_nanos);
+}
+
+std::string BagSource::FindWorld() {
+  struct : SampleSink {
+    void OnCharacter(const Character&) override {}
+    void OnSample(const BodySample&) override {}
+  } nothing;
+  BagMessages ahead(OpenBagFile(name_), HasTransforms);
+  TransformPeople people = people_;
+  SourceCounters unused;
+  std::int64_t end = 0;
+  for (BagMessage message; people.root().empty() && ahead.Next(message);) {
+    if (end == 0) end = message.recorded_nanos + kNamesNanos;
+    if (message.recorded_nanos > end) break;
+    if (Decode(message) != nullptr) continue;
+    if (IsStatic(message.connection->topic)) {
+      people.TakeStatic(message_, unused);
+    } else {
+      people.Take(message_, {message.recorded_nanos, 0}, unused, nothing);
+    }
+  }
+  return people.root();
 }
 
 void BagSource::CheckEnding(const BagMessages& messages) const {
@@ -158,11 +190,17 @@ Source::State BagSource::End() {
 void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   ++counters_.datagrams;
   counters_.bytes += message.size;
+  if (!HasTransforms(*message.connection)) return markers_.Take(message, counters_);
   if (const char* const defect = Decode(message)) {
     ++counters_.rejected[defect];
-  } else if (IsStatic(message.connection->topic)) {
+    return;
+  }
+  const bool is_static = IsStatic(message.connection->topic);
+  markers_.AddTransforms(message_, is_static);
+  if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {
+    markers_.Update(message.recorded_nanos, world_, name_, sink);
     people_.Take(message_, {message.recorded_nanos, 0}, counters_, sink);
   }
 }

@@ -33,6 +33,7 @@ namespace kinescope::ros_bridge {
 /// - counter = sample number, from 0; time code = time since the person's first sample. A bag has
 ///   no derivatives and no CoM; the Character has a skeleton, measured on the first sample, and
 ///   again when the lengths change permanently (skeleton_watch.h).
+/// - Markers of other nodes are delivered with the samples (bag_markers.h).
 /// - counters(): a datagram is a message, or a damaged record; other topics are counted in
 /// `ignored`
 ///   by name when they are passed, unread.

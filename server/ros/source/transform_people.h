@@ -48,6 +48,8 @@ class TransformPeople {
   void End(SourceCounters& counters);
 
   const std::vector<PersonFrames>& people() const { return frames_.people(); }
+  /// The frame that the first person's samples are in; "" before the first one.
+  std::string root() const { return people_.empty() ? "" : people_.front().transforms.root(); }
 
  private:
   static constexpr std::size_t kMaxStatic = 4096;  // frames kept, those of robots included

@@ -67,20 +67,21 @@ TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
     if (Find(segment) == nullptr) return Result::kNothing;
   }
   Poses poses;
-  const Result chained = Chain(poses);
+  const std::string* root = nullptr;
+  const Result chained = Chain(poses, root);
   if (chained == Result::kNothing) return chained;  // a link between two segments is still missing
   const std::int64_t header_nanos = StampInHeaders();
   present_.reset();
   if (chained == Result::kNoTree) return chained;
   if (!SetStamp(header_nanos, first_record_nanos_)) return Result::kDuplicate;
   SetSegments(poses);
+  root_ = *root;
   sample_.arrival_nanos = arrival_nanos;
   ++samples_;
   return Result::kSample;
 }
 
-TransformPerson::Result TransformPerson::Chain(Poses& poses) const {
-  const std::string* root = nullptr;
+TransformPerson::Result TransformPerson::Chain(Poses& poses, const std::string*& root) const {
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     const FrameTransform* at = Find(segment);
     Pose pose = at->parent_from_child;

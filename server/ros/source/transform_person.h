@@ -45,6 +45,8 @@ class TransformPerson {
   [[nodiscard]] bool End() const { return HasSegments(); }
 
   const BodySample& sample() const { return sample_; }
+  /// The frame that the sample is in; "" before the first one.
+  const std::string& root() const { return root_; }
   /// Number of times that the header stamp was earlier than that of the sample before.
   std::uint64_t steps_back() const { return steps_back_; }
 
@@ -54,7 +56,7 @@ class TransformPerson {
   bool HasSegments() const;
   const FrameTransform* Find(int slot) const;  // null: none
   /// Poses relative to the root frame of the set: kSample, kNothing or kNoTree.
-  Result Chain(Poses& poses) const;
+  Result Chain(Poses& poses, const std::string*& root) const;
   void FindArmFrames(const Poses& poses);
   std::int64_t StampInHeaders() const;
   /// False if the set is a repetition of the sample before.
@@ -70,6 +72,7 @@ class TransformPerson {
   std::bitset<kFrameSlots> is_static_;
 
   BodySample sample_;  // the newest
+  std::string root_;
   std::uint32_t samples_ = 0;
   std::uint64_t steps_back_ = 0;
   std::int64_t first_stamp_ = 0;

@@ -68,6 +68,53 @@ TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOne
                           "/kinescope/link_states", "/kinescope/markers", "/kinescope/marks"));
 }
 
+// Or a robot that is controlled beside the person would lose its model, without a word.
+TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfARobotAsItIs) {
+  StartMaster();
+  const auto call = [](const char* method, const std::string& name, const std::string& value = "") {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = name;
+    if (!value.empty()) arguments[1] = value;
+    MasterReply reply = MasterClient().Call(method, arguments);
+    const bool is_text = reply.code == MasterReply::Code::kGood &&
+                         reply.value.getType() == XmlRpc::XmlRpcValue::TypeString;
+    return is_text ? static_cast<std::string>(reply.value) : std::string();
+  };
+  const std::string arm = "<robot name=\"arm\"><link name=\"base\"/></robot>";
+  call("setParam", "/robot_description", arm);
+  call("setParam", "/anna/robot_description", model_->urdf_xml);  // of a Kinescope before
+  BridgeConfig config;
+  config.initial_urdf = model_->urdf_xml;
+  MakeBridge(config);
+  EXPECT_TRUE(Within(kTestPatience,
+                     [&] { return call("getParam", "/human_description") == model_->urdf_xml; }));
+  const auto anna = MakeModel("anna", 1.6, 7);
+  SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
+  state.people.push_back(MakePerson(anna, Posture(1), 1, 1));
+  state.people[1].character = 3;
+  Publish(state);
+  EXPECT_TRUE(Within(kTestPatience, [&] {
+    return call("getParam", "/human_description") == state.people[0].model->urdf_xml &&
+           call("getParam", "/anna/robot_description") == anna->urdf_xml;
+  }));
+  EXPECT_EQ(call("getParam", "/robot_description"), arm);
+}
+
+TEST_F(RosBridgeWithMaster, WritesTheDescriptionWhereItIsTold) {
+  StartMaster();
+  BridgeConfig config;
+  config.initial_urdf = model_->urdf_xml;
+  config.description = "/lab/person";
+  MakeBridge(config);
+  EXPECT_TRUE(Within(kTestPatience, [&] {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = "/lab/person";
+    MasterReply reply = MasterClient().Call("getParam", arguments);
+    return reply.code == MasterReply::Code::kGood &&
+           static_cast<std::string>(reply.value) == model_->urdf_xml;
+  }));
+}
+
 // A sender may change the body with every sample; each one that is described has its meshes
 // written.
 TEST_F(RosBridgeWithMaster, WritesTheMeshesOfAtMostOneBodyPerSecond) {

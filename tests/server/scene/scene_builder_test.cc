@@ -71,6 +71,22 @@ TEST(SceneBuilder, StandsRobotsOnTheFloorAndCountsTheChangesBesideThePeople) {
   EXPECT_EQ(built.last().surroundings, before + 1);
 }
 
+TEST(SceneBuilder, ShowsTheMarkersOfARecordingWithItsSamplesBesideThoseOfOtherNodes) {
+  const auto recorded = std::make_shared<const SceneMarker>();
+  const auto of_a_node = std::make_shared<const SceneMarker>();
+  Built built;
+  built.builder.OnRecordedMarkers({recorded});
+  EXPECT_TRUE(built.states.empty()) << "a picture of no person";
+  built.builder.OnSample(SampleOf("lift", 0));
+  EXPECT_EQ(built.last().markers, MarkerList{recorded});
+  built.builder.SetMarkers({of_a_node});
+  built.builder.OnSample(SampleOf("lift", 1));
+  EXPECT_EQ(built.last().markers, (MarkerList{recorded, of_a_node}));
+  built.builder.OnRecordedMarkers({});
+  built.builder.OnSample(SampleOf("lift", 2));
+  EXPECT_EQ(built.last().markers, MarkerList{of_a_node});
+}
+
 TEST(SceneBuilder, HasTheHeadingOfLiveViewsInEveryState) {
   const auto turned = [](double secs) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(M_PI, Vector3d::UnitZ()));

@@ -6,6 +6,7 @@
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,0 +1,181 @@
+// Markers that other nodes published into a bag stand beside the people, as RViz shows them.
+#include "server/ros/source/bag_markers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+
+#include <functional>
+#include <string>
+
+#include "server/ros/markers.h"
+#include "server/ros/source/bag_source.h"
+#include "server/ros/transforms.h"
+#include "tests/captured_log.h"
+#include "tests/recording_sink.h"
+#include "tests/server/ros/test_person.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using testing::CapturedLog;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+using testing::RecordingSink;
+using testing::TempFolder;
+using visualization_msgs::Marker;
+
+constexpr std::int64_t kBegin = 1'600'000'000'000'000'000, kStep = 100'000'000;
+
+ros::Time TimeOf(std::int64_t nanos) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(nanos));
+  return time;
+}
+
+Marker CubeIn(const std::string& frame, int id, double x = 0) {
+  Marker marker;
+  marker.header.frame_id = frame;
+  marker.ns = "walls";
+  marker.id = id;
+  marker.type = Marker::CUBE;
+  marker.pose.position.x = x;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = 0.2;
+  marker.color.a = 1;
+  return marker;
+}
+
+tf2_msgs::TFMessage FrameAt(const std::string& frame, double x, std::int64_t nanos) {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  auto& transform = message.transforms.front();
+  transform.header.frame_id = "world";
+  transform.header.stamp = TimeOf(nanos);
+  transform.child_frame_id = frame;
+  transform.transform.translation.x = x;
+  transform.transform.rotation.w = 1;
+  return message;
+}
+
+struct Recorded : RecordingSink {
+  SourceCounters counters;
+};
+
+class BagMarkersTest : public ::testing::Test {
+ protected:
+  // Six samples of a person, and what `write` adds.
+  Recorded Read(const std::function<void(rosbag::Bag&)>& write) const {
+    const std::string path = folder_ / "markers.bag";
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    for (int n = 0; n < 6; ++n) {
+      tf2_msgs::TFMessage message;
+      const auto person =
+          testing::MakePerson(testing::MakeModel("skeleton"), testing::Posture(0.05 * n),
+                              static_cast<std::uint32_t>(n), kBegin + n * kStep);
+      FillTransforms(person, PersonNames("skeleton"), "world", TfShape::kFlat, message);
+      bag.write("/tf", TimeOf(kBegin + n * kStep), message);
+    }
+    write(bag);
+    bag.close();
+    Recorded recorded;
+    const auto source = OpenBag(path);
+    while (source->Poll({}, recorded) == Source::State::kMore) {
+    }
+    recorded.counters = source->counters();
+    return recorded;
+  }
+  // How many markers each sample has.
+  static std::vector<std::size_t> CountsOf(const Recorded& recorded) {
+    std::vector<std::size_t> counts;
+    for (const MarkerList& each : recorded.markers) counts.push_back(each.size());
+    return counts;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(BagMarkersTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    Marker brief = CubeIn("world", 2, 5);
+    brief.lifetime = ros::Duration(0.15);
+    Marker gone = CubeIn("world", 1);
+    gone.action = Marker::DELETE;
+    bag.write("/walls", TimeOf(kBegin + kStep / 2), CubeIn("world", 1, 3));
+    bag.write("/walls", TimeOf(kBegin + 2 * kStep - 1), brief);
+    bag.write("/walls", TimeOf(kBegin + 4 * kStep + 1), gone);
+  });
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 2, 2, 1, 0));
+  const SceneMarker& cube = *recorded.markers[1].front();
+  EXPECT_EQ(IdentityOf(cube), "walls/1");
+  EXPECT_EQ(cube.pose.position, Eigen::Vector3d(3, 0, 0));
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+}
+
+TEST_F(BagMarkersTest, BeforeTheFirstSampleStandBesideIt) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    bag.write("/walls", TimeOf(kBegin - 1), CubeIn("world", 1));
+    bag.write("/walls", TimeOf(kBegin - 1), CubeIn("", 2));
+  });
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(2, 2, 2, 2, 2, 2));
+}
+
+TEST_F(BagMarkersTest, FollowTheirFrames) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    Marker locked = CubeIn("cart", 1, 0.5);
+    locked.frame_locked = 1;
+    visualization_msgs::MarkerArray both;
+    both.markers = {locked, CubeIn("table", 2)};
+    bag.write("/tf_static", TimeOf(kBegin - 3), FrameAt("table", 7, kBegin - 3));
+    bag.write("/walls", TimeOf(kBegin - 2), both);
+    bag.write("/tf", TimeOf(kBegin - 1), FrameAt("cart", 1, kBegin - 1));
+    bag.write("/tf", TimeOf(kBegin + 3 * kStep - 1), FrameAt("cart", 2, kBegin + 3 * kStep - 1));
+  });
+  ASSERT_THAT(CountsOf(recorded), ElementsAre(2, 2, 2, 2, 2, 2));
+  EXPECT_EQ(recorded.markers[0][1]->pose.position, Eigen::Vector3d(7, 0, 0));
+  EXPECT_EQ(recorded.markers[2][0]->pose.position, Eigen::Vector3d(1.5, 0, 0));
+  EXPECT_EQ(recorded.markers[5][0]->pose.position, Eigen::Vector3d(2.5, 0, 0));
+}
+
+TEST_F(BagMarkersTest, InAFrameThatIsNotThereAreNamedOnce) {
+  const CapturedLog log;
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    for (int n = 0; n < 5; ++n) {
+      bag.write("/walls", TimeOf(kBegin + n * kStep), CubeIn("moon", 1));
+    }
+  });
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(log.text(), HasSubstr("marker walls/1: frame 'moon' is not known yet"));
+}
+
+TEST_F(BagMarkersTest, ThatCannotBeDrawnAreCountedByReason) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    Marker flat = CubeIn("world", 1), unknown = CubeIn("world", 2);
+    flat.scale.x = std::numeric_limits<double>::quiet_NaN();
+    unknown.action = 17;
+    bag.write("/walls", TimeOf(kBegin), flat);
+    bag.write("/walls", TimeOf(kBegin), unknown);
+    bag.write("/walls", TimeOf(kBegin), CubeIn("world", 3));
+  });
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
+  EXPECT_THAT(recorded.counters.rejected,
+              ElementsAre(Pair("marker: cannot be drawn", 1), Pair("marker: unknown action", 1)));
+}
+
+TEST_F(BagMarkersTest, OfKinescopeAreDrawnByTheSceneItself) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    Marker own = CubeIn("world", 1);
+    own.ns = "loads";
+    visualization_msgs::MarkerArray array;
+    array.markers = {own};
+    bag.write("/kinescope/markers", TimeOf(kBegin), array);
+  });
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(recorded.counters.ignored, ElementsAre(Pair("markers of Kinescope", 1)));
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
