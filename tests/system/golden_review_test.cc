@@ -221,7 +221,7 @@ TEST_F(GoldenReviewTest, UndoesNothingThatAnotherReviewHasAccepted) {
     const Response response = review.Order("bend", order);
     EXPECT_EQ(response.status, 409);
     EXPECT_THAT(response.json().at("error").get<std::string>(),
-                AllOf(HasSubstr("accepted before this review was started"), HasSubstr("bend.png")));
+                AllOf(HasSubstr("accepted before this review began"), HasSubstr("bend.png")));
   }
   EXPECT_EQ(Content(), taken);
 }

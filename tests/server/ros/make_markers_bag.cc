@@ -45,7 +45,7 @@ visualization_msgs::MarkerArray Workplace() {
   all.markers.push_back(Shape(1, Marker::CUBE, 0.85, 0, 0.175, 0.4, 1, 0.35));
   all.markers.push_back(Shape(2, Marker::CYLINDER, 0.8, 0.3, 0.45, 0.16, 0.16, 0.2));
   all.markers.push_back(Shape(3, Marker::SPHERE, 0.8, -0.3, 0.43, 0.16, 0.16, 0.16));
-  all.markers.push_back(Shape(4, Marker::TEXT_VIEW_FACING, 0.85, 0, 0.42, 0, 0, 0.07));
+  all.markers.push_back(Shape(4, Marker::TEXT_VIEW_FACING, 0.85, 0, 0.62, 0, 0, 0.07));
   all.markers.back().text = "shelf";
   Marker path = Shape(5, Marker::LINE_STRIP, 0, 0, 0.01, 0.02, 0, 0);
   for (int i = 0; i <= 16; ++i) {

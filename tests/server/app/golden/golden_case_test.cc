@@ -69,7 +69,7 @@ TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
   EXPECT_EQ(*golden_case.loads.measured.wrenches, folder_ / "forces.csv");
   bool is_measured = false;
   kinescope::testing::FakeRenderer renderer(
-      [&](const auto&, const SceneState& state, const auto&, const auto&) {
+      [&](const auto&, const SceneState& state, const auto&, const auto& spec) {
         is_measured = state.people.at(0).forces.hands[urdf::kLeft].is_measured;
       });
   Draw(golden_case, renderer, [](const GoldenDrawing&) {});
@@ -113,11 +113,11 @@ TEST_F(GoldenCaseFile, HasAWrittenPose) {
     EXPECT_EQ(golden_case.view.ghost->source, "pose:t_pose,x=1");
     double flexion = 0, ghost_x = 0;
     kinescope::testing::FakeRenderer renderer(
-        [&](const auto&, const SceneState& state, const auto&, const auto&) {
+        [&](const auto&, const SceneState& state, const auto&, const auto& spec) {
           const auto angles = urdf::AnatomicalAngles(OrientationsOf(state.people.at(0).sample),
                                                      urdf::AngleSequence::kZxy);
           flexion = angles[urdf::jRightElbow].z();
-          ghost_x = state.ghosts.at(0).person.links[urdf::kPelvis].position.x();
+          ghost_x = spec.look.ghosts.at(0).person.links[urdf::kPelvis].position.x();
         });
     Draw(golden_case, renderer, [](const auto&) {});
     EXPECT_NEAR(flexion, 90, 1e-6) << source;
