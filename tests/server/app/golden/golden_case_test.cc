@@ -69,7 +69,7 @@ TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
   EXPECT_EQ(*golden_case.loads.measured.wrenches, folder_ / "forces.csv");
   bool is_measured = false;
   kinescope::testing::FakeRenderer renderer(
-      [&](const auto&, const SceneState& state, const auto&, const auto& spec) {
+      [&](const auto&, const SceneState& state, const auto&, const auto&) {
         is_measured = state.people.at(0).forces.hands[urdf::kLeft].is_measured;
       });
   Draw(golden_case, renderer, [](const GoldenDrawing&) {});
