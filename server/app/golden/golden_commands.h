@@ -1,6 +1,9 @@
 /// The commands of `kinescope golden`, and what they have in common.
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "server/app/command.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_jobs.h"

@@ -1,6 +1,8 @@
 /// `golden update`: accepts what the cases show now. One thread.
 #pragma once
 
+#include <filesystem>
+
 #include "server/app/golden/golden_jobs.h"
 #include "server/app/golden/golden_suite.h"
 

@@ -1,6 +1,7 @@
 /// The configuration of a running `serve` or `bridge`: the options as values that its parts take.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
