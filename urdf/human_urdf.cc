@@ -73,7 +73,7 @@ const HandSkeleton* GloveOn(const HumanModel& human, int segment) {
 
 // As URIs want it, which is safe in XML too: a folder's name is the user's.
 std::string UriOf(const std::string& folder) {
-  if (folder.rfind("package://", 0) == 0) return folder;
+  if (folder.rfind("package://", 0) == 0 || folder.rfind("http://", 0) == 0) return folder;
   std::string uri = "file://";
   for (const char c : folder) {
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||

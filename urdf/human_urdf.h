@@ -36,11 +36,11 @@ struct HumanModel {
   std::string model_name = "skeleton";  // prefix of link and joint names, name of the robot
   Skeleton skeleton;
   BodyParameters body;
-  /// Absolute path, or package://name/folder. Contains <link>.stl of every visible link except
-  /// props (server/body/body_meshes.h). "": primitives instead.
+  /// Absolute path, package://name/folder or http://host:port/folder. Contains <link>.stl of every
+  /// visible link except props (server/body/body_meshes.h). "": primitives instead.
   std::string mesh_folder;
   std::bitset<2> tools;     // by Side: the link of that hand also shows <ToolFileName>.stl
-  std::string tool_folder;  // absolute path, or package://name/folder
+  std::string tool_folder;  // as mesh_folder
   std::array<std::optional<HandSkeleton>, 2> gloves;  // by Side; present where fingers are streamed
   std::bitset<kMaxProps> props;                       // those that are streamed
   /// Gives every link a mass, for Gazebo. Each of the two links inside a joint gets a hundredth of

@@ -15,4 +15,10 @@ std::string ClientAddress(const boost::asio::ip::address& address) {
   return ip::address_v6(bytes).to_string() + "/64";
 }
 
+std::string ClientAddress(const boost::asio::ip::tcp::socket& socket) {
+  boost::system::error_code error;
+  const boost::asio::ip::address address = socket.remote_endpoint(error).address();
+  return error ? "unknown" : ClientAddress(address);
+}
+
 }  // namespace kinescope::http

@@ -32,12 +32,6 @@ using boost::system::error_code;
 
 constexpr std::chrono::seconds kWatch{1};
 
-std::string AddressOf(const tcp::socket& socket) {
-  error_code error;
-  const asio::ip::address address = socket.remote_endpoint(error).address();
-  return error ? "unknown" : ClientAddress(address);
-}
-
 std::string Authority(const std::string& ip, int port) {
   const bool is_v6 = ip.find(':') != std::string::npos;
   return (is_v6 ? "[" + ip + "]" : ip) + ":" + std::to_string(port);
@@ -62,6 +56,11 @@ void CheckTokenText(const std::string& token, const std::string& origin) {
                      " characters can be guessed; use " + std::to_string(kMinTokenLength) +
                      " or more, such as these random ones: " + RandomToken());
   }
+}
+
+const HttpConfig& Checked(const HttpConfig& config) {
+  CheckConfig(config);
+  return config;
 }
 
 }  // namespace
@@ -100,12 +99,15 @@ void CheckConfig(const HttpConfig& config) {
   }
 }
 
-Listener::Listener(const HttpConfig& config) {
-  CheckConfig(config);
+Listener::Listener(const HttpConfig& config)
+    : Listener(Checked(config).bind_ip, config.port, config.port_origin) {}
+
+Listener Listener::OpenToAll() { return {"0.0.0.0", 0, ""}; }
+
+Listener::Listener(const std::string& ip, int port, const std::string& port_origin) {
   asio::io_context io;
   tcp::acceptor acceptor(io);
-  const tcp::endpoint endpoint(asio::ip::make_address(config.bind_ip),
-                               static_cast<unsigned short>(config.port));
+  const tcp::endpoint endpoint(asio::ip::make_address(ip), static_cast<unsigned short>(port));
   error_code error;
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
@@ -113,14 +115,14 @@ Listener::Listener(const HttpConfig& config) {
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (!error) descriptor_ = acceptor.release(error);
   if (error == boost::system::errc::address_not_available) {
-    throw UsageError("--bind_ip=" + config.bind_ip +
+    throw UsageError("--bind_ip=" + ip +
                      ": this machine does not have this address; use one of its own, 0.0.0.0 for "
                      "all of them or 127.0.0.1 for this machine only");
   }
   if (error) {
-    throw UsageError("cannot serve the page at " + Authority(config.bind_ip, config.port) + ": " +
-                     error.message() + "; choose another port with " + config.port_origin +
-                     " (0: a free one)");
+    const std::string remedy =
+        port_origin.empty() ? "" : "; choose another port with " + port_origin + " (0: a free one)";
+    throw UsageError("cannot serve at " + Authority(ip, port) + ": " + error.message() + remedy);
   }
 }
 
@@ -349,7 +351,7 @@ void HttpServer::Impl::OnAccepted(error_code error, tcp::socket socket) {
     return;
   }
   Accept();
-  std::string address = AddressOf(socket);
+  std::string address = ClientAddress(socket);
   if (!shared_.connections.MakeRoomFor(address, Clock::now())) {
     ++counters_.rejected["too many connections"];  // closed by its destructor
   } else {

@@ -161,6 +161,8 @@ class Listener {
   /// @throws UsageError as CheckConfig does, or with the address and port that could not be bound
   /// and the remedy.
   explicit Listener(const HttpConfig& config);
+  /// At all addresses and a free port, for a server without a token. @throws UsageError.
+  static Listener OpenToAll();
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -169,6 +171,8 @@ class Listener {
   int Release();
 
  private:
+  Listener(const std::string& ip, int port, const std::string& port_origin);
+
   int descriptor_ = -1;
 };
 

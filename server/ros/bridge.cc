@@ -59,9 +59,7 @@ bool IsNew(const BodySample& sample, const Outlet& outlet) {
 class Bridge : public RosBridge {
  public:
   explicit Bridge(const BridgeConfig& config)
-      : config_(config),
-        registration_(config.description, config.initial_urdf, config.initial_meshes,
-                      config.tf != "off", MakeWiring()) {}
+      : config_(config), registration_(config_, MakeWiring()) {}
 
   void PublishView(const RosImage& picture) override {
     if (const auto view = registration_.View()) view->Publish(picture);

@@ -30,11 +30,14 @@ struct BridgeConfig {
   /// Parameter of the first person's URDF; "": robot_description, or human_description where
   /// another program has set that.
   std::string description;
-  /// Content of that parameter until the first person appears; "": not set until then. RViz
+  /// Whose URDF that parameter has until the first person appears; null: not set until then. RViz
   /// reads it once when it starts, which with one launch file is before the first sample.
-  std::string initial_urdf;
-  /// The meshes that initial_urdf names, written before it is set; null: it names none.
-  std::shared_ptr<const MeshFiles> initial_meshes;
+  std::shared_ptr<const PersonModel> initial_model;
+  /// Serves meshes while they exist, as http://<this computer>:<port>/<set>/<file>; returns the
+  /// port, or 0 if it cannot. Called on another thread, when a URDF is published under a name by
+  /// which other computers reach this one. Null: URDFs name the files of this computer.
+  std::function<int(const std::string& set, const std::shared_ptr<const MeshFiles>& files)>
+      serve_meshes;
 
   /// Factor for moments of external joint loads: -1 if the other program means the moment that the
   /// child exerts on the parent.

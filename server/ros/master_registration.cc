@@ -6,9 +6,11 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/names.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <sensor_msgs/JointState.h>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
@@ -23,6 +25,7 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/starts_with.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
@@ -61,16 +64,15 @@ XmlRpcValue Typed(const std::string& text) {
   return XmlRpcValue(text);
 }
 
+// A name of this computer that means another one to others.
+bool IsLoopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || StartsWith(host, "127.");
+}
+
 }  // namespace
 
-MasterRegistration::MasterRegistration(std::string description, std::string initial_urdf,
-                                       std::shared_ptr<const MeshFiles> initial_meshes,
-                                       bool with_tf, InputWiring wiring)
-    : description_(std::move(description)),
-      initial_urdf_(std::move(initial_urdf)),
-      initial_meshes_(std::move(initial_meshes)),
-      with_tf_(with_tf),
-      wiring_(std::move(wiring)) {
+MasterRegistration::MasterRegistration(const BridgeConfig& config, InputWiring wiring)
+    : config_(config), wiring_(std::move(wiring)) {
   status_.master_uri = ros::master::getURI();
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
@@ -289,7 +291,7 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
   topics->joint_loads = Topic<kinescope_ros::JointLoadArray>(prefix + "joint_loads");
   topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
-  if (with_tf_) topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
+  if (config_.tf != "off") topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
 }
 
@@ -404,7 +406,9 @@ bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
 std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& prefix) {
   const auto known = description_names_.find(prefix);
   if (known != description_names_.end()) return known->second;
-  if (prefix.empty() && !description_.empty()) return description_names_[prefix] = description_;
+  if (prefix.empty() && !config_.description.empty()) {
+    return description_names_[prefix] = config_.description;
+  }
   const std::string usual = prefix + kDescription;
   for (const std::string& name :
        {usual, prefix + "human_description", "~" + prefix + "human_description"}) {
@@ -423,6 +427,26 @@ std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& 
   return description_names_[prefix] = "~" + prefix + "human_description";
 }
 
+// RViz on another computer cannot read the files of this one.
+std::string MasterRegistration::UrdfOf(const PersonModel& model) const {
+  if (!model.mesh_files) return model.urdf_xml;
+  const std::string& host = ros::network::getHost();
+  const std::string& folder =
+      model.human.mesh_folder.empty() ? model.human.tool_folder : model.human.mesh_folder;
+  const std::string set = folder.substr(folder.rfind('/') + 1);
+  const int port =
+      config_.serve_meshes && !IsLoopback(host) ? config_.serve_meshes(set, model.mesh_files) : 0;
+  if (port == 0) {
+    model.mesh_files->Provide();
+    return model.urdf_xml;
+  }
+  urdf::HumanModel human = model.human;
+  for (std::string* const place : {&human.mesh_folder, &human.tool_folder}) {
+    if (!place->empty()) *place = fmt::format("http://{}:{}/{}", host, port, set);
+  }
+  return urdf::WriteUrdf(human);
+}
+
 // Stops at the first that the master does not accept; the rest is tried again next time.
 void MasterRegistration::SetDescriptions() {
   std::map<std::string, std::shared_ptr<const PersonModel>> models;  // by prefix
@@ -434,13 +458,12 @@ void MasterRegistration::SetDescriptions() {
       if (slot.model != nullptr) models[slot.prefix] = slot.model;
     }
   }
-  if (has_met_nobody && !initial_urdf_.empty()) {
+  if (has_met_nobody && config_.initial_model) {
     const std::optional<std::string> name = DescriptionOf("");
     if (!name) return;
     if (described_.count(*name) == 0) {
-      if (initial_meshes_) initial_meshes_->Provide();
-      if (!SetParameter(*name, initial_urdf_)) return;
-      described_[*name] = {0, 0, initial_meshes_};
+      if (!SetParameter(*name, UrdfOf(*config_.initial_model))) return;
+      described_[*name] = {0, 0, config_.initial_model->mesh_files};
     }
   }
   for (const auto& [prefix, model] : models) {
@@ -452,8 +475,7 @@ void MasterRegistration::SetDescriptions() {
                                     now - set->second.set_nanos < kDescribeEveryNanos)) {
       continue;
     }
-    if (model->mesh_files) model->mesh_files->Provide();
-    if (!SetParameter(*name, model->urdf_xml)) return;
+    if (!SetParameter(*name, UrdfOf(*model))) return;
     described_[*name] = {model->revision, now, model->mesh_files};
   }
 }

@@ -52,12 +52,8 @@ struct InputWiring {
 
 class MasterRegistration {
  public:
-  /// `description`: parameter of the first person's URDF; "": robot_description, or
-  /// human_description where another program has set that. `initial_urdf`: its value until the
-  /// first person, with the meshes that it names; "": none. @pre ros::init was called.
-  MasterRegistration(std::string description, std::string initial_urdf,
-                     std::shared_ptr<const MeshFiles> initial_meshes, bool with_tf,
-                     InputWiring wiring);
+  /// `config` must outlive the registration. @pre ros::init was called.
+  MasterRegistration(const BridgeConfig& config, InputWiring wiring);
   ~MasterRegistration();  // unregisters the topics
   MasterRegistration(const MasterRegistration&) = delete;
   MasterRegistration& operator=(const MasterRegistration&) = delete;
@@ -111,21 +107,19 @@ class MasterRegistration {
   void SetDescriptions();
   bool IsOthers(const std::string& parameter, bool& answers);
   std::optional<std::string> DescriptionOf(const std::string& prefix);
+  std::string UrdfOf(const PersonModel& model) const;
   bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
 
   // A description parameter that was set.
   struct Description {
-    std::uint64_t revision = 0;              // 0: of initial_urdf_
+    std::uint64_t revision = 0;              // 0: of the initial model
     std::int64_t set_nanos = 0;              // monotonic clock
     std::shared_ptr<const MeshFiles> files;  // RViz reads them whenever it likes
   };
 
-  const std::string description_;  // parameter of the first person; "": one that is free
-  const std::string initial_urdf_;
-  const std::shared_ptr<const MeshFiles> initial_meshes_;
-  const bool with_tf_;
+  const BridgeConfig& config_;
   const InputWiring wiring_;
 
   mutable std::mutex mutex_;  // never held during a call to the master

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "core/system/stop_signal.h"
 #include "server/alarms/alarm_json.h"
@@ -140,11 +141,23 @@ Server::Server(const ServeConfig& config)
 }
 
 void Server::StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode) {
-  const auto model = builder_.InitialModel();
-  config.initial_urdf = model->urdf_xml;
-  config.initial_meshes = model->mesh_files;
+  config.initial_model = builder_.InitialModel();
+  config.serve_meshes = [this](const std::string& set, const auto& files) {
+    return ServeMeshes(set, files);
+  };
   ros_ = ros_bridge::MakeRosBridge(config, mode);
   if (ros_) ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_);
+}
+
+int Server::ServeMeshes(const std::string& set, const std::shared_ptr<const MeshFiles>& files) {
+  try {
+    if (!meshes_) meshes_ = std::make_unique<http::MeshServer>();
+    meshes_->Offer(set, files);
+    return meshes_->port();
+  } catch (const UsageError& error) {
+    spdlog::warn("RViz on other computers will not see the body's meshes: {}", error.what());
+    return 0;
+  }
 }
 
 void Server::StartPictures(const ServeConfig& config) {

@@ -28,6 +28,7 @@
 #include "server/app/serve/stream_health.h"
 #include "server/app/serve/surroundings_loop.h"
 #include "server/history/history.h"
+#include "server/http/mesh_server.h"
 #include "server/http/server.h"
 #include "server/marks/mark_book.h"
 #include "server/picture/ghost_pose.h"
@@ -54,6 +55,7 @@ class Server {
 
  private:
   void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
+  int ServeMeshes(const std::string& set, const std::shared_ptr<const MeshFiles>& files);
   void StartPictures(const ServeConfig& config);
   void StartControls(const ServeConfig& config);
   void StartPage(const ServeConfig& config);
@@ -98,6 +100,7 @@ class Server {
   const GhostPose ghost_;
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
+  std::unique_ptr<http::MeshServer> meshes_;  // made by a thread of ros_, when it needs one
   std::unique_ptr<ros_bridge::RosBridge> ros_;
   std::unique_ptr<RosNews> ros_news_;  // with ros_
   std::unique_ptr<RosCameraLoop> ros_camera_;

@@ -42,7 +42,7 @@ class RosBridgeWithMaster : public ::testing::Test {
     setenv("ROS_HOME", folder_.path().c_str(), 1);
     setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
     setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + std::to_string(port_.number())).c_str(), 1);
-    setenv("ROS_IP", "127.0.0.1", 1);
+    setenv("ROS_IP", own_address(), 1);
     unsetenv("ROS_HOSTNAME");
     std::vector<std::string> words = {"test", "left", "_udp_port:=8001", "_tf:=tree", "right"};
     std::vector<char*> argv;
@@ -55,6 +55,9 @@ class RosBridgeWithMaster : public ::testing::Test {
   }
 
   void TearDown() override { bridge_.reset(); }
+
+  // By which this node says that it can be reached.
+  virtual const char* own_address() const { return "127.0.0.1"; }
 
   void StartMaster() {
     master_ = std::make_unique<testing::Process>(std::vector<std::string>{

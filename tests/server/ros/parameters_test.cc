@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "core/system/errors.h"
 #include "server/ros/master_client.h"
 #include "tests/mesh_file_on_demand.h"
@@ -13,9 +15,11 @@ namespace kinescope::ros_bridge {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::MakeModel;
 using testing::MakePerson;
 using testing::MeshFileOnDemand;
+using ::testing::Not;
 using testing::Posture;
 using testing::SceneWith;
 using testing::TempFolder;
@@ -23,7 +27,7 @@ using testing::TempFolder;
 TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOnes) {
   StartMaster();
   BridgeConfig config;
-  config.initial_urdf = model_->urdf_xml;
+  config.initial_model = model_;
   MakeBridge(config);
   const auto parameter = [](const std::string& name) {
     XmlRpc::XmlRpcValue arguments;
@@ -68,6 +72,45 @@ TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOne
                           "/kinescope/link_states", "/kinescope/markers", "/kinescope/marks"));
 }
 
+class RosBridgeForOtherComputers : public RosBridgeWithMaster {
+ protected:
+  const char* own_address() const override { return "192.0.2.77"; }
+};
+
+TEST_F(RosBridgeForOtherComputers, NamesMeshesAsTheseCanReadThem) {
+  StartMaster();
+  const TempFolder folder;
+  auto anna = std::make_shared<PersonModel>(*MakeModel("anna", 1.6, 7));
+  anna->human.mesh_folder = anna->human.tool_folder = folder / "body-7";
+  anna->human.tools.set(urdf::kRight);
+  const auto meshes = std::make_shared<MeshFileOnDemand>(folder / "head.stl", "an STL file");
+  anna->mesh_files = meshes;
+  BridgeConfig config;
+  config.initial_model = anna;
+  std::promise<std::string> offered;
+  config.serve_meshes = [&](const std::string& set, const std::shared_ptr<const MeshFiles>& files) {
+    offered.set_value(files == meshes ? set : "other files");
+    return 4711;
+  };
+  MakeBridge(config);
+  std::future<std::string> set = offered.get_future();
+  ASSERT_EQ(set.wait_for(kTestPatience), std::future_status::ready);
+  EXPECT_EQ(set.get(), "body-7");
+  std::string urdf;
+  EXPECT_TRUE(Within(kTestPatience, [&] {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = "/robot_description";
+    MasterReply reply = MasterClient().Call("getParam", arguments);
+    if (reply.code != MasterReply::Code::kGood) return false;
+    urdf = static_cast<std::string>(reply.value);
+    return true;
+  }));
+  EXPECT_THAT(urdf, HasSubstr("\"http://192.0.2.77:4711/body-7/head.stl\""));
+  EXPECT_THAT(urdf, HasSubstr("\"http://192.0.2.77:4711/body-7/right_tool.stl\""));
+  EXPECT_THAT(urdf, Not(HasSubstr("file://")));
+  EXPECT_FALSE(meshes->is_provided()) << "they are read over HTTP, so there are no files";
+}
+
 // Or a robot that is controlled beside the person would lose its model, without a word.
 TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfARobotAsItIs) {
   StartMaster();
@@ -84,7 +127,7 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfARobotAsItIs) {
   call("setParam", "/robot_description", arm);
   call("setParam", "/anna/robot_description", model_->urdf_xml);  // of a Kinescope before
   BridgeConfig config;
-  config.initial_urdf = model_->urdf_xml;
+  config.initial_model = model_;
   MakeBridge(config);
   EXPECT_TRUE(Within(kTestPatience,
                      [&] { return call("getParam", "/human_description") == model_->urdf_xml; }));
@@ -103,7 +146,7 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfARobotAsItIs) {
 TEST_F(RosBridgeWithMaster, WritesTheDescriptionWhereItIsTold) {
   StartMaster();
   BridgeConfig config;
-  config.initial_urdf = model_->urdf_xml;
+  config.initial_model = model_;
   config.description = "/lab/person";
   MakeBridge(config);
   EXPECT_TRUE(Within(kTestPatience, [&] {
