@@ -164,10 +164,16 @@ TEST(Command, CountsRejectedDatagramsByReasonAndContinues) {
 TEST(Command, ReportsThatItCannotRender) {
   // A program without its module, as after half an installation.
   const TempFolder folder;
-  fs::copy(testing::KinescopePath(), folder.path() / "kinescope");
-  std::ofstream(folder.path() / "libkinescope_render_osmesa.so") << "not a library";
+  const fs::path program = fs::path("libexec") / "kinescope" / "kinescope";
+  fs::create_directories(folder / "bin");
+  fs::create_directories((folder / program).parent_path());
+  fs::create_directories(folder / "lib/kinescope");
+  fs::copy(testing::KinescopePath(), folder / "bin/kinescope");
+  fs::copy(fs::path(testing::KinescopePath()).parent_path().parent_path() / program,
+           folder / program);
+  std::ofstream(folder / "lib/kinescope/libkinescope_render_osmesa.so") << "not a library";
   const ProgramResult result = RunProgram(
-      {folder.path() / "kinescope", "render", "demo:n_pose", "--out", folder.path() / "a.png"});
+      {folder / "bin/kinescope", "render", "demo:n_pose", "--out", folder.path() / "a.png"});
   ExpectRefusal(result, "libkinescope_render_osmesa.so");
   ExpectRefusal(Kinescope({"render", "demo:n_pose", "--out", folder.path() / "a.png"},
                           {"GALLIUM_DRIVER=hardware"}),
