@@ -18,6 +18,7 @@ Command RecordCommand();   // source -> capture file
 Command InspectCommand();  // contents of a source
 Command StripCommand();    // clip or picture -> which samples it shows
 Command UrdfCommand();     // the person's URDF; check or draw any
+Command RvizCommand();     // RViz configuration of running nodes
 Command ProbeCommand();    // capabilities of this machine
 
 /// In the order of --help.

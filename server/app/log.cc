@@ -3,7 +3,9 @@
 #include <spdlog/details/log_msg.h>
 #include <spdlog/pattern_formatter.h>
 
+#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/system/utf8.h"
@@ -33,6 +35,17 @@ class PrintableFormatter : public spdlog::formatter {
 };
 
 }  // namespace
+
+std::deque<LogLine> LogTail::Take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(lines_, {});
+}
+
+void LogTail::sink_it_(const spdlog::details::log_msg& message) {
+  const std::string_view text(message.payload.data(), message.payload.size());
+  lines_.push_back({message.level, PrintableLine(text)});
+  if (lines_.size() > kMost) lines_.pop_front();
+}
 
 void MakeLinesPrintable(spdlog::logger& log) {
   log.set_formatter(std::make_unique<PrintableFormatter>());

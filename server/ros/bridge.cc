@@ -1,7 +1,9 @@
 #include "server/ros/bridge.h"
 
 #include <geometry_msgs/Point.h>
+#include <ros/time.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <cmath>
@@ -25,6 +27,8 @@
 #include "server/ros/names.h"
 #include "server/ros/node_topics.h"
 #include "server/ros/ros_camera_topics.h"
+#include "server/ros/ros_clock.h"
+#include "server/ros/stamp.h"
 #include "server/ros/transforms.h"
 
 namespace kinescope::ros_bridge {
@@ -51,10 +55,56 @@ struct Outlet {
   tf2_msgs::TFMessage transforms;
 };
 
+TfShape ShapeOf(const std::string& tf) {
+  if (tf == "flat") return TfShape::kFlat;
+  return tf == "tree" ? TfShape::kTree : TfShape::kBase;
+}
+
 bool IsNew(const BodySample& sample, const Outlet& outlet) {
   return !outlet.has_last || sample.counter != outlet.last_counter ||
          sample.stamp_nanos != outlet.last_stamp_nanos;
 }
+
+// `state` with stamps of the graph's clock, which must have a time.
+SceneState InRosTime(SceneState state, const RosClock& clock) {
+  const auto convert = [&](std::int64_t& stamp_nanos) { stamp_nanos = *clock.ToRos(stamp_nanos); };
+  convert(state.stamp_nanos);
+  for (PersonState& person : state.people) convert(person.sample.stamp_nanos);
+  for (TrackedObject& object : state.objects) convert(object.stamp_nanos);
+  return state;
+}
+
+// Passes on what comes from ROS with stamps of the wall clock.
+class InWallTime : public InputSink {
+ public:
+  InWallTime(InputSink& sink, const RosClock& clock) : sink_(sink), clock_(clock) {}
+
+  void OnHandLoad(int character, const HandLoad& load) override {
+    sink_.OnHandLoad(character, load);
+  }
+  void OnMeasurements(int character, const Measurements& measured) override {
+    Measurements in_wall_time = measured;
+    const auto convert = [&](auto& part) {
+      if (part) part->stamp_nanos = clock_.FromRos(part->stamp_nanos);
+    };
+    for (auto& hand : in_wall_time.hands) convert(hand);
+    for (auto& foot : in_wall_time.feet) convert(foot);
+    convert(in_wall_time.ground);
+    for (ExternalJointLoad& joint : in_wall_time.joints) {
+      if (joint.stamp_nanos != 0) joint.stamp_nanos = clock_.FromRos(joint.stamp_nanos);
+    }
+    sink_.OnMeasurements(character, in_wall_time);
+  }
+  void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override {
+    sink_.OnMarkers(markers);
+  }
+  void OnMark(const std::string& text) override { sink_.OnMark(text); }
+  void OnViewListeners(int count) override { sink_.OnViewListeners(count); }
+
+ private:
+  InputSink& sink_;
+  const RosClock& clock_;
+};
 
 class Bridge : public RosBridge {
  public:
@@ -62,20 +112,41 @@ class Bridge : public RosBridge {
       : config_(config), registration_(config_, MakeWiring()) {}
 
   void PublishView(const RosImage& picture) override {
-    if (const auto view = registration_.View()) view->Publish(picture);
+    const auto view = registration_.View();
+    if (!view) return;
+    RosImage of_graph = picture;
+    if (of_graph.stamp_nanos != 0) of_graph.stamp_nanos = RosStamp(picture.stamp_nanos);
+    view->Publish(of_graph);
   }
 
   void PublishDiagnostics(const std::vector<Diagnosis>& all) override {
     if (const auto node = registration_.Node()) ros_bridge::PublishDiagnostics(all, *node);
   }
 
-  bool PublishMark(const RosMark& mark) override {
+  bool PublishState(const std::string& state) override {
     const auto node = registration_.Node();
-    if (node) ros_bridge::PublishMark(mark, config_.reference_frame, *node);
+    if (node) ros_bridge::PublishState(state, *node);
     return node != nullptr;
   }
 
-  void TakeInputs(InputSink& sink) override {
+  bool PublishLog(const RosLogLine& line) override {
+    const auto node = registration_.Node();
+    return node && ros_bridge::PublishLog(line, *node);
+  }
+
+  bool PublishMark(const RosMark& mark) override {
+    const auto node = registration_.Node();
+    if (!node) return false;
+    RosMark of_graph = mark;
+    of_graph.stamp_nanos = RosStamp(mark.stamp_nanos);
+    if (mark.end_stamp_nanos) of_graph.end_stamp_nanos = RosStamp(*mark.end_stamp_nanos);
+    ros_bridge::PublishMark(of_graph, config_.reference_frame, *node);
+    return true;
+  }
+
+  void TakeInputs(InputSink& to) override {
+    InWallTime in_wall_time(to, clock_);
+    InputSink& sink = clock_.has_time() ? static_cast<InputSink&>(in_wall_time) : to;
     queue_.callAvailable(ros::WallDuration(0));
     for (const std::string& text : std::exchange(marks_in_, {})) sink.OnMark(text);
     if (view_listeners_) sink.OnViewListeners(*std::exchange(view_listeners_, std::nullopt));
@@ -89,14 +160,11 @@ class Bridge : public RosBridge {
     if (state.liveness == Liveness::kStale && !is_stale_) PublishStaleMarkers();
     is_stale_ = state.liveness == Liveness::kStale;
     if (state.liveness != Liveness::kLive) return;
-    last_live_number_ = state.number;
-    for (const PersonState& person : state.people) {
-      Outlet& outlet = OutletOf(person);
-      outlet.seen_in_number = state.number;
-      if (markers_in_) markers_in_->SetPerson(person, state.floor_z);
-      if (IsNew(person.sample, outlet)) PublishSample(state, person, outlet);
-    }
-    ReleaseThoseGone(state.stamp_nanos);
+    if (!IsSimulated()) return PublishLive(state);
+    clock_.Observe(WallNanos(), ToNanos(ros::Time::now()));
+    if (!clock_.has_time()) return WaitForClock();
+    if (std::exchange(jumps_, clock_.jumps()) != clock_.jumps()) ForgetStamps();
+    PublishLive(InRosTime(state, clock_));
   }
 
   BridgeStatus status() const override {
@@ -107,6 +175,47 @@ class Bridge : public RosBridge {
   }
 
  private:
+  // Known when roscpp was started.
+  bool IsSimulated() const {
+    return !config_.stamps_are_of_graph && registration_.Node() && ros::Time::isSimTime();
+  }
+
+  // Of what is shown; by the clock as it was at the last sample.
+  std::int64_t RosStamp(std::int64_t stamp_nanos) const {
+    return clock_.ToRos(stamp_nanos).value_or(stamp_nanos);
+  }
+
+  void WaitForClock() {
+    ++missed_;
+    if (std::exchange(waits_for_clock_, true)) return;
+    spdlog::warn(
+        "/use_sim_time is true, and nothing has been published on /clock: samples are published "
+        "when a simulator or rosbag play --clock does; or rosparam set /use_sim_time false and "
+        "start this node again");
+  }
+
+  void ForgetStamps() {
+    for (auto& [character, outlet] : outlets_) outlet.has_last = false;
+  }
+
+  void PublishLive(const SceneState& state) {
+    last_live_number_ = state.number;
+    for (const PersonState& person : state.people) {
+      Outlet& outlet = OutletOf(person);
+      outlet.seen_in_number = state.number;
+      if (markers_in_) markers_in_->SetPerson(person, state.floor_z);
+      if (IsNew(person.sample, outlet) && !StandsStill(person.sample, outlet)) {
+        PublishSample(state, person, outlet);
+      }
+    }
+    ReleaseThoseGone(state.stamp_nanos);
+  }
+
+  // tf2 drops, with a warning, a transform with the stamp of the one before.
+  bool StandsStill(const BodySample& sample, const Outlet& outlet) const {
+    return outlet.has_last && sample.stamp_nanos <= outlet.last_stamp_nanos && clock_.has_time();
+  }
+
   std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
     std::vector<std::string> topics = MarkerTopicNames(config_.markers);
     if (topics.empty()) return nullptr;
@@ -176,8 +285,7 @@ class Bridge : public RosBridge {
             Outlet& outlet) const {
     const std::string& frame = config_.reference_frame;
     if (topics.tf && topics.tf.getNumSubscribers() > 0) {
-      FillTransforms(person, outlet.names, frame,
-                     config_.tf == "tree" ? TfShape::kTree : TfShape::kFlat, outlet.transforms);
+      FillTransforms(person, outlet.names, frame, shape_, outlet.transforms);
       const bool is_first = &person == &state.people.front();
       if (is_first) AddObjects(state, outlet.names, frame, outlet.transforms);
       topics.tf.publish(outlet.transforms);
@@ -204,7 +312,7 @@ class Bridge : public RosBridge {
     }
     // Filled without a subscriber, too: they may have to turn grey when there is one.
     FillMarkers(person, outlet.names, frame,
-                config_.tf == "off" ? MarkerFrames::kReference : MarkerFrames::kLinks,
+                shape_ == TfShape::kBase ? MarkerFrames::kReference : MarkerFrames::kLinks,
                 state.floor_z, outlet.markers);
     topics.markers.publish(outlet.markers);
   }
@@ -227,6 +335,8 @@ class Bridge : public RosBridge {
   }
 
   const BridgeConfig config_;
+  const TfShape shape_ = ShapeOf(config_.tf);
+  RosClock clock_;                     // without a time unless it is simulated
   ros::CallbackQueue queue_;           // called by the publishing thread
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
   std::vector<std::string> marks_in_;  // publishing thread only; until passed on
@@ -240,6 +350,8 @@ class Bridge : public RosBridge {
   std::map<int, Outlet> outlets_;  // by character
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
+  int jumps_ = 0;  // of clock_, that were noticed
+  bool waits_for_clock_ = false;
 };
 
 void RequireOneOf(const char* option, const std::string& value,
@@ -268,7 +380,7 @@ void RequireMaster() {
 }  // namespace
 
 std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode) {
-  RequireOneOf("tf", config.tf, {"flat", "tree", "off"});
+  RequireOneOf("tf", config.tf, {"flat", "tree", "off", "none"});
   RequireOneOf("joint_states", config.joint_states, {"computed", "streamed"});
   if (config.reference_frame.empty() || config.reference_frame.front() == '/') {
     throw UsageError(

@@ -23,7 +23,8 @@ enum class RosMode { kOff, kAuto, kRequired };  // auto: publish while a master 
 
 struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
-  std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree" or "off"
+  std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
+                                          // alone, for robot_state_publisher) or "none"
   std::string joint_states = "computed";  // or "streamed": type 20 with the mapping of
                                           // xsens_mvn_ros
 
@@ -38,6 +39,10 @@ struct BridgeConfig {
   /// which other computers reach this one. Null: URDFs name the files of this computer.
   std::function<int(const std::string& set, const std::shared_ptr<const MeshFiles>& files)>
       serve_meshes;
+
+  /// The samples come from ROS, so their stamps are of the graph's clock. Else they are of the wall
+  /// clock, and published as that moment of the graph's, which differs under /use_sim_time.
+  bool stamps_are_of_graph = false;
 
   /// Factor for moments of external joint loads: -1 if the other program means the moment that the
   /// child exerts on the parent.
@@ -76,6 +81,13 @@ struct RosMark {
   std::uint32_t counter = 0;                    // of its sample
   std::optional<std::int64_t> end_stamp_nanos;  // of a span
   bool is_open = false, is_removed = false;
+};
+
+/// A line of the log, for `/rosout`.
+struct RosLogLine {
+  enum class Level : std::uint8_t { kDebug = 1, kInfo = 2, kWarning = 4, kError = 8 };
+  Level level = Level::kInfo;
+  std::string text;
 };
 
 /// Counters of one input topic.
@@ -140,8 +152,13 @@ class RosBridge {
   virtual BridgeStatus status() const = 0;  // any thread
 
   /// Publishes `all` on `/diagnostics`, or nothing until a master has answered. Never blocks; call
-  /// it on the thread of Publish, as PublishMark().
+  /// it on the thread of Publish, as the next three.
   virtual void PublishDiagnostics(const std::vector<Diagnosis>& all) = 0;
+  /// Publishes what the stream is, on `~state`, which is latched. False until a master has
+  /// answered.
+  virtual bool PublishState(const std::string& state) = 0;
+  /// False while nothing listens to `/rosout`.
+  virtual bool PublishLog(const RosLogLine& line) = 0;
   /// Publishes a mark that is new or has changed. False until a master has answered.
   virtual bool PublishMark(const RosMark& mark) = 0;
 

@@ -9,6 +9,7 @@
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/JointState.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -203,6 +204,7 @@ void MasterRegistration::RegisterRegularly() {
       registered_.clear();
       described_.clear();
       description_names_.clear();
+      told_.clear();
       has_arguments_ = false;
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
@@ -249,7 +251,9 @@ void MasterRegistration::Start() {
   }
   auto node_topics = std::make_shared<NodeTopics>();
   node_topics->diagnostics = Topic<diagnostic_msgs::DiagnosticArray>("/diagnostics");
+  node_topics->log = Topic<rosgraph_msgs::Log>("/rosout");
   node_topics->marks = Topic<kinescope_ros::Mark>("marks");
+  node_topics->state = Topic<std_msgs::String>("state", Latch::kYes);
   const std::lock_guard<std::mutex> lock(mutex_);
   node_topics_ = std::move(node_topics);
   view_ = std::move(view);
@@ -275,8 +279,8 @@ void MasterRegistration::AdvertiseMissing() {
 }
 
 template <class Message>
-ros::Publisher MasterRegistration::Topic(const std::string& name) {
-  ros::Publisher publisher = node_->advertise<Message>(name, kSampleQueue);
+ros::Publisher MasterRegistration::Topic(const std::string& name, Latch latch) {
+  ros::Publisher publisher = node_->advertise<Message>(name, kSampleQueue, latch == Latch::kYes);
   topic_types_[publisher.getTopic()] = ros::message_traits::DataType<Message>::value();
   return publisher;
 }
@@ -291,7 +295,7 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
   topics->joint_loads = Topic<kinescope_ros::JointLoadArray>(prefix + "joint_loads");
   topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
-  if (config_.tf != "off") topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
+  if (config_.tf != "none") topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
 }
 
@@ -466,9 +470,14 @@ void MasterRegistration::SetDescriptions() {
       described_[*name] = {0, 0, config_.initial_model->mesh_files};
     }
   }
+  std::map<std::string, std::string> names_of_models;
+  if (models.empty() && config_.initial_model) {
+    names_of_models[""] = config_.initial_model->human.model_name;
+  }
   for (const auto& [prefix, model] : models) {
     const std::optional<std::string> name = DescriptionOf(prefix);
     if (!name) return;
+    names_of_models[prefix] = model->human.model_name;
     const auto set = described_.find(*name);
     const std::int64_t now = MonotonicNanos();
     if (set != described_.end() && (set->second.revision == model->revision ||
@@ -478,6 +487,24 @@ void MasterRegistration::SetDescriptions() {
     if (!SetParameter(*name, UrdfOf(*model))) return;
     described_[*name] = {model->revision, now, model->mesh_files};
   }
+  TellWhatIsPublished(names_of_models);
+}
+
+// For programs that show it (running.h). `models`: by prefix.
+void MasterRegistration::TellWhatIsPublished(const std::map<std::string, std::string>& models) {
+  XmlRpcValue published, people;
+  people.setSize(static_cast<int>(models.size()));
+  int i = 0;
+  for (const auto& [prefix, model] : models) {
+    XmlRpcValue& person = people[i++];
+    person["model"] = model;
+    person["description"] = ros::names::resolve(description_names_[prefix]);
+    person["topics"] = ros::this_node::getName() + "/" + prefix;
+  }
+  published["reference_frame"] = config_.reference_frame;
+  published["people"] = people;
+  const std::string text = published.toXml();
+  if (text != told_ && SetParameter("~published", published)) told_ = text;
 }
 
 void MasterRegistration::SetReachable(bool reachable) {

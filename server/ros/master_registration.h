@@ -100,14 +100,16 @@ class MasterRegistration {
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
   void CountUnreadable(const char* topic);  // on the thread of the queue
+  enum class Latch { kNo, kYes };           // whether who subscribes later hears the last message
   template <class Message>
-  ros::Publisher Topic(const std::string& name);
+  ros::Publisher Topic(const std::string& name, Latch latch = Latch::kNo);
   bool RegisterAll();
   void SetParameters();
   void SetDescriptions();
   bool IsOthers(const std::string& parameter, bool& answers);
   std::optional<std::string> DescriptionOf(const std::string& prefix);
   std::string UrdfOf(const PersonModel& model) const;
+  void TellWhatIsPublished(const std::map<std::string, std::string>& models);
   bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
@@ -147,6 +149,7 @@ class MasterRegistration {
   std::optional<ros::Subscriber> marks_;              // registered at this master
   std::map<std::string, std::string> description_names_;  // by prefix, at this master
   std::map<std::string, Description> described_;          // by name of the parameter
+  std::string told_;                                      // content of `~published` at this master
   bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
   bool was_registered_ = false;    // registered at least once, at any master
   bool master_forgot_us_ = false;  // and still does: then it is not said each time

@@ -5,6 +5,7 @@
 
 #include "core/system/errors.h"
 #include "server/ros/bridge.h"
+#include "server/ros/running.h"
 
 namespace kinescope::ros_bridge {
 
@@ -20,6 +21,12 @@ bool BuiltWithRos() { return false; }
 std::string MasterUri() { return ""; }
 bool MasterIsReachable() { return false; }
 std::optional<std::string> PrivateParameter(const std::string& /*name*/) { return std::nullopt; }
+
+std::vector<RunningNode> FindRunningNodes() {
+  throw UsageError(
+      "this Kinescope was built without ROS: install the ROS packages in packages.txt and "
+      "configure with -DKINESCOPE_WITH_ROS=ON");
+}
 
 std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& /*config*/, RosMode mode) {
   if (mode == RosMode::kOff) return nullptr;

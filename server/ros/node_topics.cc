@@ -3,10 +3,29 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <kinescope/Mark.h>
 #include <ros/this_node.h>
+#include <rosgraph_msgs/Log.h>
+#include <std_msgs/String.h>
 
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
+
+void PublishState(const std::string& state, const NodeTopics& topics) {
+  std_msgs::String message;
+  message.data = state;
+  topics.state.publish(message);
+}
+
+bool PublishLog(const RosLogLine& line, const NodeTopics& topics) {
+  if (topics.log.getNumSubscribers() == 0) return false;
+  rosgraph_msgs::Log message;
+  message.header.stamp = ros::Time::now();
+  message.level = static_cast<std::uint8_t>(line.level);
+  message.name = ros::this_node::getName();
+  message.msg = line.text;
+  topics.log.publish(message);
+  return true;
+}
 
 void PublishDiagnostics(const std::vector<Diagnosis>& all, const NodeTopics& topics) {
   if (topics.diagnostics.getNumSubscribers() == 0) return;

@@ -1,4 +1,6 @@
-/// The topics of the node that belong to no person: `/diagnostics`, `~marks` and `~mark`.
+/// The topics of the node that belong to no person: `/diagnostics`, `/rosout`, `~state`, `~marks`
+/// and
+/// `~mark`.
 #pragma once
 
 #include <ros/publisher.h>
@@ -12,9 +14,12 @@ namespace kinescope::ros_bridge {
 
 /// Any thread may publish.
 struct NodeTopics {
-  ros::Publisher diagnostics, marks;
+  ros::Publisher diagnostics, marks, state, log;
 };
 
+void PublishState(const std::string& state, const NodeTopics& topics);
+/// False without subscribers.
+bool PublishLog(const RosLogLine& line, const NodeTopics& topics);
 /// Publishes nothing without subscribers.
 void PublishDiagnostics(const std::vector<Diagnosis>& all, const NodeTopics& topics);
 void PublishMark(const RosMark& mark, const std::string& reference_frame, const NodeTopics& topics);

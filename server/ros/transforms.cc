@@ -183,6 +183,12 @@ void AddObjects(const SceneState& scene, const PersonNames& names,
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message) {
+  if (shape == TfShape::kBase) {
+    message.transforms.resize(1);
+    TransformWriter(message, reference_frame, StampOf(person.sample))
+        .AddToReference(names.links[urdf::kPelvis], person.links[urdf::kPelvis]);
+    return;
+  }
   message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount +
                             CountFingersAndProps(person));
   TransformWriter out(message, reference_frame, StampOf(person.sample));

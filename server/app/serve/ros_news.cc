@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/utf8.h"
@@ -16,6 +17,7 @@ using ros_bridge::Diagnosis;
 
 constexpr std::int64_t kDiagnoseEveryNanos = kNanosPerSecond;
 constexpr std::size_t kMarksPerCall = 100;
+constexpr std::int64_t kLostNanos = 5 * kNanosPerSecond;  // after the stream has become stale
 
 std::string Percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f} %", *share * 100) : "unknown";
@@ -76,6 +78,15 @@ ros_bridge::RosMark ForRos(const marks::Mark& mark) {
   return out;
 }
 
+ros_bridge::RosLogLine ForRos(const LogLine& line) {
+  using Level = ros_bridge::RosLogLine::Level;
+  const Level level = line.level <= spdlog::level::debug  ? Level::kDebug
+                      : line.level == spdlog::level::info ? Level::kInfo
+                      : line.level == spdlog::level::warn ? Level::kWarning
+                                                          : Level::kError;
+  return {level, line.text};
+}
+
 }  // namespace
 
 std::vector<Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& stream,
@@ -89,19 +100,41 @@ std::vector<Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& 
 }
 
 RosNews::RosNews(ros_bridge::RosBridge& ros, const alarms::Alarms& alarms, marks::MarkBook* marks,
-                 const Latest<SceneState>& states)
+                 const Latest<SceneState>& states, std::shared_ptr<LogTail> log)
     : ros_(ros),
       alarms_(alarms),
       marks_(marks),
       states_(states),
-      published_revision_(marks == nullptr ? 0 : marks->revision()) {}
+      published_revision_(marks == nullptr ? 0 : marks->revision()),
+      log_(std::move(log)) {}
 
 void RosNews::OnTime(std::int64_t now_nanos, const StreamHealth& stream) {
   PublishMarks();
+  PublishState(now_nanos);
+  PublishLog();
   if (now_nanos - diagnosed_nanos_ < kDiagnoseEveryNanos && !is_due_) return;
   is_due_ = false;
   diagnosed_nanos_ = now_nanos;
   ros_.PublishDiagnostics(DiagnosesOf(states_.Get().get(), stream, alarms_));
+}
+
+void RosNews::PublishState(std::int64_t now_nanos) {
+  const auto state = states_.Get();
+  const Liveness liveness = state == nullptr ? Liveness::kNoData : state->liveness;
+  if (liveness != Liveness::kStale) stale_since_ = 0;
+  if (liveness == Liveness::kStale && stale_since_ == 0) stale_since_ = now_nanos;
+  const bool is_lost = stale_since_ != 0 && now_nanos - stale_since_ >= kLostNanos;
+  const std::string text = is_lost ? "lost" : Name(liveness);
+  if (text != published_state_ && ros_.PublishState(text)) published_state_ = text;
+}
+
+void RosNews::PublishLog() {
+  if (log_ == nullptr) return;
+  for (LogLine& line : log_->Take()) {
+    unheard_.push_back(std::move(line));
+    if (unheard_.size() > LogTail::kMost) unheard_.pop_front();
+  }
+  while (!unheard_.empty() && ros_.PublishLog(ForRos(unheard_.front()))) unheard_.pop_front();
 }
 
 void RosNews::PublishMarks() {

@@ -1,15 +1,18 @@
-/// What ROS hears beside the states: diagnostics of stream and alarms, and marks; and marks that
-/// come from ROS. Reading thread only, except where stated.
+/// What ROS hears beside the samples: whether the stream is live, diagnostics of stream and alarms,
+/// marks and the log; and marks that come from ROS. Reading thread only, except where stated.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/scene_state.h"
 #include "core/system/latest.h"
 #include "server/alarms/alarms.h"
+#include "server/app/log.h"
 #include "server/app/serve/stream_health.h"
 #include "server/marks/mark_book.h"
 #include "server/ros/bridge.h"
@@ -22,9 +25,9 @@ std::vector<ros_bridge::Diagnosis> DiagnosesOf(const SceneState* state, const St
 
 class RosNews {
  public:
-  /// `marks` may be null. All references are borrowed.
+  /// `marks` and `log` may be null. All references are borrowed.
   RosNews(ros_bridge::RosBridge& ros, const alarms::Alarms& alarms, marks::MarkBook* marks,
-          const Latest<SceneState>& states);
+          const Latest<SceneState>& states, std::shared_ptr<LogTail> log);
 
   /// An alarm has changed: its diagnosis is due. Any thread.
   void OnAlarm() { is_due_ = true; }
@@ -35,6 +38,8 @@ class RosNews {
 
  private:
   void PublishMarks();
+  void PublishState(std::int64_t now_nanos);
+  void PublishLog();
 
   ros_bridge::RosBridge& ros_;
   const alarms::Alarms& alarms_;
@@ -43,6 +48,10 @@ class RosNews {
   std::atomic<bool> is_due_{true};
   std::int64_t diagnosed_nanos_ = 0;
   std::uint64_t published_revision_;  // of the marks
+  const std::shared_ptr<LogTail> log_;
+  std::deque<LogLine> unheard_;  // lines of the log
+  std::string published_state_;
+  std::int64_t stale_since_ = 0;  // monotonic clock; 0: it is not
 };
 
 }  // namespace kinescope::app

@@ -1,4 +1,5 @@
 // `kinescope serve` and `kinescope bridge`: a source, live, to ROS, pictures and page.
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <memory>
@@ -7,6 +8,7 @@
 
 #include "core/system/clocks.h"
 #include "server/app/commands.h"
+#include "server/app/log.h"
 #include "server/app/serve/page_token.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/serve_options.h"
@@ -59,6 +61,10 @@ Command Make(const char* name, const char* about, bool with_page) {
     ServeConfig config = MakeServeConfig(*values, with_page);
     // A terminal is read by the person who opens the page; anything else may be a log that stays.
     config.shows_token = ::isatty(STDERR_FILENO) == 1;
+    if (config.ros) {  // before there are other threads, which log
+      config.log = std::make_shared<LogTail>();
+      spdlog::default_logger()->sinks().push_back(config.log);
+    }
     // The moment at which it stands still is now.
     if (config.stop_at) SetMonotonicClock(kStoppedOriginNanos + *config.stop_at);
     Server(config).Run();

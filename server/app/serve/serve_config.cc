@@ -184,13 +184,14 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
     return config;
   }
   config.ros = BridgeOf(options);
+  config.ros->stamps_are_of_graph = ros_bridge::IsGraphUrl(config.source_url);
   UseMeshFiles(MeshCache::Lifetime::kProcess, config.scene);
-  if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "off") {
+  if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "none") {
     // The frames of these people are on /tf already. With a second publisher they would jump
     // between two poses, and Kinescope would receive its own.
-    config.ros->tf = "off";
+    config.ros->tf = "none";
     config.notes.push_back(fmt::format(
-        "TF frames of people from {} are not republished (as with --tf=off)", config.source_url));
+        "TF frames of people from {} are not republished (as with --tf=none)", config.source_url));
   }
   return config;
 }

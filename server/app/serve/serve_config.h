@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "server/alarms/rule.h"
+#include "server/app/log.h"
 #include "server/app/serve/clip_maker.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/report_maker.h"
@@ -34,7 +36,7 @@ struct ServeConfig {
   SceneOptions scene;
   alarms::Rules alarms;
   ros_bridge::RosMode ros_mode = ros_bridge::RosMode::kAuto;
-  std::optional<ros_bridge::BridgeConfig> ros;  // initial_urdf is known when the scene builder is
+  std::optional<ros_bridge::BridgeConfig> ros;  // initial_model is known when the scene builder is
   BackendOptions backend;
   std::optional<LivePictureSettings> pictures;
   std::optional<RosCameraSettings> ros_camera;    // only with `pictures` and `ros`
@@ -51,6 +53,7 @@ struct ServeConfig {
   // Commands that print the tokens of the page, or "".
   std::string how_to_see_token, how_to_see_viewer_token;
   bool shows_token = false;        // in the log, which is a terminal and no file
+  std::shared_ptr<LogTail> log;    // for /rosout; null: none
   std::vector<std::string> notes;  // parts that other options switched off, for the log
 };
 

@@ -88,7 +88,7 @@ ServeOptions::ServeOptions()
       reference_frame("world", "a TF frame name: letters, digits, _ and /, not beginning with /",
                       IsFrameName),
       description("", "the name of a parameter, such as human_description", IsTopicNameOrEmpty),
-      tf(Words({"flat", "tree", "off"}), "flat"),
+      tf(Words({"flat", "tree", "off", "none"}), "flat"),
       joint_angle_source(Words({"computed", "streamed"}), "computed"),
       bind_ip("127.0.0.1"),
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
@@ -133,7 +133,9 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option("description", description,
          "parameter that gets the URDF of the first person; default: robot_description, or "
          "human_description where another program has set that");
-  option("tf", tf, "TF frames: flat (as xsens_mvn_ros), as a tree, or none");
+  option("tf", tf,
+         "TF frames: flat (as xsens_mvn_ros), as a tree, off (the pelvis alone, for "
+         "robot_state_publisher), or none");
   option("joint_angle_source", joint_angle_source,
          "joint angles in ~joint_states: computed from the poses, or streamed by MVN");
   option.Formerly("joint_states");

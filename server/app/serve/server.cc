@@ -129,7 +129,7 @@ Server::Server(const ServeConfig& config)
     spdlog::warn("{}: {} lines are no marks; they stay in the file", marks_->file().string(),
                  marks_->unread_lines());
   }
-  if (config.ros) StartRos(*config.ros, config.ros_mode);
+  if (config.ros) StartRos(config);
   builder_.SetRobots(ReadStandingRobots(config.robots, config.backend));
   builder_.Start();  // the first state; pictures and page need one
   if (config.pictures) StartPictures(config);
@@ -140,13 +140,15 @@ Server::Server(const ServeConfig& config)
   listener_.reset();
 }
 
-void Server::StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode) {
-  config.initial_model = builder_.InitialModel();
-  config.serve_meshes = [this](const std::string& set, const auto& files) {
+void Server::StartRos(const ServeConfig& config) {
+  ros_bridge::BridgeConfig bridge = *config.ros;
+  bridge.initial_model = builder_.InitialModel();
+  bridge.serve_meshes = [this](const std::string& set, const auto& files) {
     return ServeMeshes(set, files);
   };
-  ros_ = ros_bridge::MakeRosBridge(config, mode);
-  if (ros_) ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_);
+  ros_ = ros_bridge::MakeRosBridge(bridge, config.ros_mode);
+  if (!ros_) return;
+  ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_, config.log);
 }
 
 int Server::ServeMeshes(const std::string& set, const std::shared_ptr<const MeshFiles>& files) {

@@ -54,7 +54,7 @@ class Server {
   void Run();
 
  private:
-  void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
+  void StartRos(const ServeConfig& config);
   int ServeMeshes(const std::string& set, const std::shared_ptr<const MeshFiles>& files);
   void StartPictures(const ServeConfig& config);
   void StartControls(const ServeConfig& config);

@@ -1,5 +1,6 @@
 // What a launch file started, seen from outside: the topics, TF and description of one person.
-//   launch_test <node name>    started by rostest, see *.test beside this file
+//   launch_test <node name> [<bag> | rviz]    started by rostest, see *.test beside this file
+// <bag>: what record.launch writes, without date and ending. rviz: rviz.launch shows the node.
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
@@ -10,12 +11,15 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string>
 
 namespace {
 
-std::string g_node;  // set once by main
+std::string g_node;       // set once by main
+std::string g_what_else;  // the second argument; set once by main
 
 // The next message, or null with a failed expectation.
 template <class Message>
@@ -84,13 +88,51 @@ TEST(LaunchFile, PublishesAFrameForEveryLinkOfTheDescription) {
   for (const auto& [name, link] : model.links_) EXPECT_EQ(frames.count(name), 1U) << name;
 }
 
+TEST(LaunchFile, RecordsWhatIsPublished) {
+  if (g_what_else.empty() || g_what_else == "rviz") GTEST_SKIP() << "not this launch file";
+  const std::filesystem::path bag = g_what_else;
+  const auto deadline = ros::WallTime::now() + ros::WallDuration(60);
+  std::uintmax_t bytes = 0;
+  while (bytes < 100'000 && ros::WallTime::now() < deadline) {
+    std::error_code gone;  // rosbag renames it
+    for (const auto& file : std::filesystem::directory_iterator(bag.parent_path(), gone)) {
+      const bool is_it = file.path().filename().string().rfind(bag.filename().string(), 0) == 0;
+      if (is_it) bytes = std::filesystem::file_size(file.path(), gone);
+    }
+  }
+  EXPECT_GE(bytes, 100'000U) << "rosbag writes nothing to " << bag << "*.bag";
+}
+
+TEST(LaunchFile, ShowsThePersonInRviz) {
+  if (g_what_else != "rviz") GTEST_SKIP() << "not this launch file";
+  const auto listens = [](const std::string& topic) {
+    XmlRpc::XmlRpcValue name, reply, state;
+    name[0] = "/launch_test";
+    if (!ros::master::execute("getSystemState", name, reply, state, true)) return false;
+    for (int i = 0; i < state[1].size(); ++i) {
+      for (int j = 0; j < state[1][i][1].size(); ++j) {
+        const std::string of_topic = state[1][i][0], by = state[1][i][1][j];
+        if (of_topic == topic && by == "/rviz") return true;
+      }
+    }
+    return false;
+  };
+  const auto deadline = ros::WallTime::now() + ros::WallDuration(60);
+  while (!listens(g_node + "/markers") && ros::WallTime::now() < deadline) {
+    ros::WallDuration(0.05).sleep();  // another process's progress: there is nothing to wait on
+  }
+  EXPECT_TRUE(listens(g_node + "/markers"));
+  EXPECT_TRUE(listens("/tf"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "launch_test", ros::init_options::AnonymousName);
-  if (argc != 2) return 2;
+  if (argc < 2 || argc > 3) return 2;
   g_node = argv[1];
+  if (argc == 3) g_what_else = argv[2];
   const ros::NodeHandle node;  // keeps roscpp up between the tests
   return RUN_ALL_TESTS();
 }

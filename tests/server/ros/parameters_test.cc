@@ -63,13 +63,14 @@ TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOne
     names.push_back(static_cast<std::string>(topics.value[i][0]));
   }
   std::sort(names.begin(), names.end());
-  EXPECT_THAT(names,
-              ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped",
-                          "/kinescope/anna/cop", "/kinescope/anna/joint_loads",
-                          "/kinescope/anna/joint_states", "/kinescope/anna/link_states",
-                          "/kinescope/anna/markers", "/kinescope/com", "/kinescope/com_stamped",
-                          "/kinescope/cop", "/kinescope/joint_loads", "/kinescope/joint_states",
-                          "/kinescope/link_states", "/kinescope/markers", "/kinescope/marks"));
+  EXPECT_THAT(
+      names,
+      ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped", "/kinescope/anna/cop",
+                  "/kinescope/anna/joint_loads", "/kinescope/anna/joint_states",
+                  "/kinescope/anna/link_states", "/kinescope/anna/markers", "/kinescope/com",
+                  "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_loads",
+                  "/kinescope/joint_states", "/kinescope/link_states", "/kinescope/markers",
+                  "/kinescope/marks", "/kinescope/state"));
 }
 
 class RosBridgeForOtherComputers : public RosBridgeWithMaster {

@@ -23,4 +23,9 @@ for i in range(10000, end):
         continue
     print(port)
     break')
-exec "$python" "$rostest" "$file" "udp_port:=$port"
+# RViz wants a screen.
+case $file in
+  *rviz_launch.test) export LIBGL_ALWAYS_SOFTWARE=1 HOME="$folder"; screen='xvfb-run -a' ;;
+  *) screen= ;;
+esac
+exec $screen "$python" "$rostest" "$file" "udp_port:=$port"

@@ -78,6 +78,13 @@ TEST_F(Transforms, HaveTheReferenceFrameAsParentInFlatMode) {
   }
 }
 
+TEST_F(Transforms, HaveThePelvisAloneForRobotStatePublisher) {
+  const auto message = Of(person_, TfShape::kBase);
+  ASSERT_EQ(message.transforms.size(), 1U);
+  EXPECT_EQ(message.transforms[0].header.frame_id, "lab");
+  EXPECT_EQ(message.transforms[0].child_frame_id, "skeleton_pelvis");
+}
+
 TEST_F(Transforms, PutEveryLinkAtTheSamePlaceInTreeAndFlatMode) {
   for (std::size_t i = 0; i < person_.links.size(); ++i) {
     person_.links[i].position += Eigen::Vector3d(0.003, -0.002, 0.001) * static_cast<double>(i);

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <kinescope/Mark.h>
+#include <rosgraph_msgs/Log.h>
 #include <std_msgs/String.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <string>
@@ -19,6 +21,7 @@ namespace {
 
 using http::testing::Fetch;
 using nlohmann::json;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class NewsOverRos : public testing::RosProgram {
@@ -103,6 +106,36 @@ TEST_F(NewsOverRos, MarksComeFromRosAndAreHeardThere) {
   ASSERT_TRUE(Spin([&] { return heard.size() == 3; }));
   EXPECT_TRUE(heard[2].is_removed);
   EXPECT_EQ(heard[2].id, heard[0].id);
+}
+
+TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {
+  const auto bridge = Start("bridge udp://127.0.0.1:0 --ros required");
+  const std::string suit_address = WaitForAddress(*bridge);
+  std::vector<std::string> states, lines;
+  const auto has = [&](const char* state) { return !states.empty() && states.back() == state; };
+  const auto hear = [&] {
+    Hear<std_msgs::String>("/kinescope/state",
+                           [&](const std_msgs::String& state) { states.push_back(state.data); });
+  };
+  hear();
+  Hear<rosgraph_msgs::Log>("/rosout", [&](const rosgraph_msgs::Log& line) {
+    if (line.name == "/kinescope") lines.push_back(line.msg);
+  });
+  ASSERT_TRUE(Spin([&] { return has("no data"); }));
+  auto suit = Start("stream demo:t_pose --to " + suit_address);
+  ASSERT_TRUE(Spin([&] { return has("live"); }));
+  suit.reset();
+  ASSERT_TRUE(Spin([&] { return has("lost"); }));
+  EXPECT_THAT(states, ElementsAre("no data", "live", "stale", "lost"));
+  states.clear();
+  subscribers_.erase(subscribers_.begin());
+  hear();
+  EXPECT_TRUE(Spin([&] { return has("lost"); })) << "the topic is latched";
+  EXPECT_TRUE(Spin([&] {
+    return std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+      return line.find("waiting for data from ") != std::string::npos;
+    });
+  })) << "the log also has what was written before it could be published";
 }
 
 }  // namespace

@@ -115,5 +115,25 @@ TEST_F(RobotStatePublisher, PublishesTheSameTreeForStreamedGlovesAndProps) {
   ExpectSameTrees(66 + 120 + 12, 100);
 }
 
+TEST_F(RobotStatePublisher, MakesTheRestOfATreeThatBeginsWithThePelvis) {
+  const auto bridge = Start("bridge demo:lift --tf off --ros required");
+  const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher",
+                           "joint_states:=/kinescope/joint_states"});
+  Tree tree;
+  Hear<tf2_msgs::TFMessage>("/tf", [&](const auto& message) {
+    for (const auto& one : message.transforms) {
+      EXPECT_TRUE(tree.count(one.child_frame_id) == 0 ||
+                  tree[one.child_frame_id].parent == one.header.frame_id)
+          << one.child_frame_id << " has two parents";
+      tree[one.child_frame_id].parent = one.header.frame_id;
+    }
+  });
+  EXPECT_TRUE(Spin([&] {
+    std::string frame = "skeleton_right_hand";
+    while (tree.count(frame) != 0) frame = tree[frame].parent;
+    return frame == "world";
+  }));
+}
+
 }  // namespace
 }  // namespace kinescope

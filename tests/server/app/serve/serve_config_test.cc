@@ -140,7 +140,7 @@ TEST(ServeConfig, DrawsPeopleAlikeInAllPicturesAndOnThePage) {
 TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
   const testing::Settings graph = {{"source", "ros:"}, {"ros", "required"}};
   const ServeConfig config = ConfigOf(graph);
-  EXPECT_EQ(config.ros->tf, "off");
+  EXPECT_EQ(config.ros->tf, "none");
   EXPECT_THAT(config.notes, ElementsAre(HasSubstr("not republished")));
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"ros", "required"}}).ros->tf, "flat");
 }

@@ -1,0 +1,28 @@
+/// The Kinescope nodes that run in the ROS graph: what each tells the master about itself in its
+/// parameter `~published`, for programs that show it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kinescope::ros_bridge {
+
+/// A person whom a node publishes.
+struct RunningPerson {
+  std::string model;        // prefix of links and frames: "skeleton"
+  std::string description;  // parameter with the URDF: "/robot_description"
+  std::string topics;       // before the names of topics: "/kinescope/", "/kinescope/anna/"
+};
+
+struct RunningNode {
+  std::string name;             // "/kinescope"
+  std::string reference_frame;  // "world"
+  bool has_view = false;        // `~view/image_raw` is there
+  std::vector<RunningPerson> people;
+};
+
+/// By name. Only nodes whose topics are registered, so none that has ended.
+/// @throws UsageError without a master, or in a build without ROS.
+std::vector<RunningNode> FindRunningNodes();
+
+}  // namespace kinescope::ros_bridge

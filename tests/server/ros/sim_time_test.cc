@@ -1,0 +1,117 @@
+// Simulated time against a real master: each test runs in a process of its own (bridge_fixture.h).
+#include <geometry_msgs/PointStamped.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/node_handle.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/system/clocks.h"
+#include "tests/server/ros/bridge_fixture.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using testing::MakePerson;
+using testing::Posture;
+using testing::SceneWith;
+
+class RosBridgeWithASimulator : public RosBridgeWithMaster {
+ protected:
+  void StartMasterWithSimulatedTime() {
+    StartMaster();
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = "/use_sim_time";
+    arguments[1] = XmlRpc::XmlRpcValue(true);
+    ASSERT_EQ(MasterClient().Call("setParam", arguments).code, MasterReply::Code::kGood);
+  }
+
+  // A node that says on /clock what time it is, and hears the stamps of the centre of mass.
+  void StartSimulator() {
+    ASSERT_TRUE(Within(kTestPatience, [&] {
+      PublishSampleOfNow();
+      return bridge_->status().missed > 0 && ros::isStarted() && ros::Time::isSimTime();
+    }));
+    node_.emplace();
+    node_->setCallbackQueue(&queue_);
+    clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", 10);
+    const boost::function<void(const geometry_msgs::PointStamped::ConstPtr&)> keep =
+        [this](const geometry_msgs::PointStamped::ConstPtr& message) {
+          stamps_.push_back(message->header.stamp.toSec());
+        };
+    com_ = node_->subscribe<geometry_msgs::PointStamped>("/kinescope/com_stamped", 0, keep);
+  }
+  void TearDown() override {
+    com_.shutdown();
+    clock_.shutdown();
+    node_.reset();
+    RosBridgeWithMaster::TearDown();
+  }
+
+  void PublishSampleOfNow() {
+    PersonState person = MakePerson(model_, Posture(0), ++counter_, WallNanos());
+    person.com = Eigen::Vector3d(0, 0, 1);
+    Publish(SceneWith(std::move(person)));
+  }
+
+  // The simulator's time begins at `start` and runs at half speed. Until `count` stamps were heard.
+  std::vector<double> Run(double start, std::size_t count) {
+    stamps_.clear();
+    const std::int64_t began = MonotonicNanos();
+    worst_error_ = 0;
+    EXPECT_TRUE(Within(kTestPatience, [&] {
+      const double now = start + 0.5 * Secs(MonotonicNanos() - began);
+      rosgraph_msgs::Clock tick;
+      tick.clock = ros::Time(now);
+      clock_.publish(tick);
+      PublishSampleOfNow();
+      const std::size_t known = stamps_.size();
+      queue_.callAvailable();
+      for (std::size_t i = known; i < stamps_.size(); ++i) {
+        worst_error_ = std::max(worst_error_, std::abs(stamps_[i] - now));
+      }
+      return stamps_.size() >= count;
+    }));
+    return stamps_;
+  }
+
+  double worst_error_ = 0;  // of the last Run(), s
+
+ private:
+  ros::CallbackQueue queue_;
+  std::optional<ros::NodeHandle> node_;
+  ros::Publisher clock_;
+  ros::Subscriber com_;
+  std::vector<double> stamps_;  // s
+};
+
+TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
+  StartMasterWithSimulatedTime();
+  MakeBridge();
+  StartSimulator();
+  EXPECT_EQ(bridge_->status().published, 0U) << "nothing has said what time it is";
+  for (const double start : {100.0, 3.0}) {
+    const std::vector<double> stamps = Run(start, 60);
+    EXPECT_LT(worst_error_, 10);
+    EXPECT_GE(stamps.front(), start);
+    EXPECT_EQ(std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()),
+              stamps.end())
+        << "tf2 drops what has the stamp of the transform before";
+  }
+}
+
+TEST_F(RosBridgeWithASimulator, LeavesStampsThatAreOfTheGraphAsTheyAre) {
+  BridgeConfig config;
+  config.stamps_are_of_graph = true;
+  StartMasterWithSimulatedTime();
+  MakeBridge(config);
+  EXPECT_TRUE(PublishUntil([&] { return bridge_->status().published > 0; }));
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
