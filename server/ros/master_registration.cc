@@ -26,10 +26,12 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/running.h"
 #include "server/ros/tcpros_limits.h"
 #include "server/ros/xmlrpc_limits.h"
 #include "urdf/human_urdf.h"
@@ -502,9 +504,35 @@ void MasterRegistration::TellWhatIsPublished(const std::map<std::string, std::st
     person["topics"] = ros::this_node::getName() + "/" + prefix;
   }
   published["reference_frame"] = config_.reference_frame;
+  published["tf"] = config_.tf;
   published["people"] = people;
   const std::string text = published.toXml();
-  if (text != told_ && SetParameter("~published", published)) told_ = text;
+  if (text == told_ || !SetParameter("~published", published)) return;
+  told_ = text;
+  if (config_.tf != "none") WarnOfTheSameFrames(models);
+}
+
+// A frame with two publishers jumps between two poses.
+void MasterRegistration::WarnOfTheSameFrames(const std::map<std::string, std::string>& models) {
+  std::vector<RunningNode> nodes;
+  try {
+    nodes = FindRunningNodes();
+  } catch (const UsageError&) {  // the master has just gone
+    return;
+  }
+  for (const RunningNode& node : nodes) {
+    if (node.name == ros::this_node::getName() || !node.has_frames) continue;
+    for (const RunningPerson& person : node.people) {
+      const bool is_same = std::any_of(models.begin(), models.end(), [&](const auto& ours) {
+        return ours.second == person.model;
+      });
+      if (!is_same || !twins_.insert(node.name).second) continue;
+      spdlog::warn(
+          "the node {} publishes the frames of a person called {}, too: in TF that person jumps "
+          "between two poses; start one of the nodes with another --model_name, or with --tf=none",
+          node.name, person.model);
+    }
+  }
 }
 
 void MasterRegistration::SetReachable(bool reachable) {

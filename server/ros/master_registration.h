@@ -110,6 +110,7 @@ class MasterRegistration {
   std::optional<std::string> DescriptionOf(const std::string& prefix);
   std::string UrdfOf(const PersonModel& model) const;
   void TellWhatIsPublished(const std::map<std::string, std::string>& models);
+  void WarnOfTheSameFrames(const std::map<std::string, std::string>& models);
   bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
@@ -149,7 +150,8 @@ class MasterRegistration {
   std::optional<ros::Subscriber> marks_;              // registered at this master
   std::map<std::string, std::string> description_names_;  // by prefix, at this master
   std::map<std::string, Description> described_;          // by name of the parameter
-  std::string told_;                                      // content of `~published` at this master
+  std::set<std::string> twins_;    // nodes with the same frames, of which it was warned
+  std::string told_;               // content of `~published` at this master
   bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
   bool was_registered_ = false;    // registered at least once, at any master
   bool master_forgot_us_ = false;  // and still does: then it is not said each time

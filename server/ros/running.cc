@@ -76,6 +76,7 @@ std::vector<RunningNode> FindRunningNodes() {
     XmlRpcValue published = Ask("getParam", arguments);
     RunningNode found = {node,
                          TextOf(published, "reference_frame"),
+                         TextOf(published, "tf") != "none",
                          topics.count(node + "/view/image_raw") != 0,
                          {}};
     if (found.reference_frame.empty()) continue;

@@ -17,6 +17,7 @@ struct RunningPerson {
 struct RunningNode {
   std::string name;             // "/kinescope"
   std::string reference_frame;  // "world"
+  bool has_frames = false;      // it publishes the people's TF frames
   bool has_view = false;        // `~view/image_raw` is there
   std::vector<RunningPerson> people;
 };

@@ -21,6 +21,7 @@ namespace {
 
 using http::testing::Fetch;
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -106,6 +107,17 @@ TEST_F(NewsOverRos, MarksComeFromRosAndAreHeardThere) {
   ASSERT_TRUE(Spin([&] { return heard.size() == 3; }));
   EXPECT_TRUE(heard[2].is_removed);
   EXPECT_EQ(heard[2].id, heard[0].id);
+}
+
+TEST_F(NewsOverRos, WarnsOfASecondNodeWithTheSameFrames) {
+  const auto first = Start("bridge demo:lift --ros required __name:=one");
+  WaitForParameter("/one/published/reference_frame");
+  const auto monitor = Start("bridge demo:lift --ros required --tf none __name:=two");
+  WaitForParameter("/two/published/reference_frame");
+  const auto second = Start("bridge demo:walk --ros required __name:=three");
+  EXPECT_THAT(WaitForLine(*second, "the node "),
+              AllOf(HasSubstr("/one publishes the frames of a person called skeleton"),
+                    HasSubstr("--model_name")));
 }
 
 TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {

@@ -30,6 +30,7 @@ TEST(RvizConfig, ShowsEveryPersonOfTheNode) {
       RvizConfig(Usual(), {"/lab/suits",
                            "lab: \"one\"",
                            true,
+                           true,
                            {{"anna", "/human_description", "/lab/suits/"},
                             {"ben", "/ben/robot_description", "/lab/suits/ben/"}}});
   auto displays = DisplaysByName(text);
@@ -52,7 +53,7 @@ TEST(RvizConfig, ShowsEveryPersonOfTheNode) {
 TEST(RvizConfig, HasNoViewWhereNoneIsPublished) {
   const auto displays = DisplaysByName(RvizConfig(
       Usual(),
-      {"/kinescope", "world", false, {{"skeleton", "/robot_description", "/kinescope/"}}}));
+      {"/kinescope", "world", true, false, {{"skeleton", "/robot_description", "/kinescope/"}}}));
   EXPECT_EQ(displays.count("Kinescope's view"), 0U);
   EXPECT_EQ(displays.count("Floor"), 1U);
 }
