@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "core/system/clocks.h"
 
@@ -9,7 +11,10 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr double kMilliNanos = 1e6;
-constexpr std::int64_t kBucketNanos = 2'000'000'000;
+constexpr std::int64_t kBucketNanos = 250'000'000;
+constexpr std::size_t kBuckets = 16;
+constexpr std::size_t kMinimaForDrift = 3;
+constexpr double kDrift = 0.02;  // less is the jitter of a network, or no matter
 constexpr double kPauseNanos = 0.5e9;
 constexpr double kTimeCodeJumpNanos = 20e6;
 constexpr std::int64_t kMinStepNanos = 100'000;
@@ -26,8 +31,8 @@ constexpr double kGain = 1.0 / 32;
 
 void ClockFit::Restart() {
   clock_.reset();
-  current_.reset();
-  previous_.reset();
+  minima_.clear();
+  drift_ = 0;
 }
 
 void ClockFit::StartAt(std::uint32_t counter, std::uint32_t time_code_millis) {
@@ -57,18 +62,46 @@ void ClockFit::Advance(std::uint32_t counter, std::uint32_t time_code_millis) {
   clock_->smooth_nanos = smooth;
 }
 
+// The median of the slopes of all pairs (Theil and Sen): a few slow samples do not change it.
+void ClockFit::MeasureDrift() {
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < minima_.size(); ++i) {
+    for (std::size_t k = i + 1; k < minima_.size(); ++k) {
+      const double sent = minima_[k].sender_nanos - minima_[i].sender_nanos;
+      if (sent > 0) slopes.push_back((minima_[k].offset - minima_[i].offset) / sent);
+    }
+  }
+  drift_ = 0;
+  if (minima_.size() < kMinimaForDrift || slopes.empty()) return;
+  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+  std::nth_element(slopes.begin(), middle, slopes.end());
+  if (*middle > kDrift) drift_ = *middle;
+}
+
 double ClockFit::SmallestOffset(double offset, std::int64_t now) {
-  if (current_ &&
-      offset - std::min(current_->offset, previous_ ? previous_->offset : offset) > kPauseNanos) {
-    current_.reset();
-    previous_.reset();
+  const double sender_nanos = clock_->smooth_nanos;
+  const auto expected = [&] {  // the smallest offset of the window, as it would be now
+    double smallest = offset;
+    for (const Minimum& minimum : minima_) {
+      smallest =
+          std::min(smallest, minimum.offset + drift_ * (sender_nanos - minimum.sender_nanos));
+    }
+    return smallest;
+  };
+  if (offset - expected() > kPauseNanos) {
+    minima_.clear();
+    drift_ = 0;
   }
-  if (!current_ || now - current_->began >= kBucketNanos) {
-    previous_ = current_;
-    current_ = Minimum{offset, now};
+  if (minima_.empty() || now - minima_.back().began >= kBucketNanos) {
+    minima_.push_back({offset, sender_nanos, now});
+    if (minima_.size() > kBuckets) minima_.pop_front();
+    MeasureDrift();
+  } else if (offset - drift_ * (sender_nanos - minima_.back().sender_nanos) <
+             minima_.back().offset) {
+    minima_.back().offset = offset;
+    minima_.back().sender_nanos = sender_nanos;
   }
-  current_->offset = std::min(current_->offset, offset);
-  return previous_ ? std::min(current_->offset, previous_->offset) : current_->offset;
+  return expected();
 }
 
 std::int64_t ClockFit::Stamp(std::uint32_t counter, std::uint32_t time_code_millis,

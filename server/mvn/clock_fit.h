@@ -2,9 +2,10 @@
 ///
 /// The sender's clock (time code) gives exact intervals between samples; the receive time gives
 /// absolute time, but with a varying delay. So: stamp = sender's clock + the smallest (receive time
-/// - sender's clock) of the last 2 to 4 s. The sample with the shortest delay is stamped with its
+/// - sender's clock) of the last 4 s. The sample with the shortest delay is stamped with its
 /// receive time; every other sample gets an earlier stamp, by its extra delay. The window is short
-/// because the two clocks drift (100 ppm make 0.4 ms in 4 s).
+/// because the two clocks drift (100 ppm make 0.4 ms in 4 s). A sender that plays a recording
+/// slower than it was recorded drifts by far more; its drift is measured, and taken out first.
 ///
 /// Time codes are whole milliseconds, which would give a stream of 240 Hz a jitter of a quarter of
 /// its period. The sample counter is exact, so time codes are smoothed along it.
@@ -15,8 +16,8 @@
 /// unless the wall clock itself is set back. One thread.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "server/mvn/arrival.h"
@@ -44,14 +45,16 @@ class ClockFit {
   void StartAt(std::uint32_t counter, std::uint32_t time_code_millis);
   void Advance(std::uint32_t counter, std::uint32_t time_code_millis);
   double SmallestOffset(double offset, std::int64_t now);
+  void MeasureDrift();
 
   std::optional<SenderClock> clock_;
   struct Minimum {
     double offset = 0;
-    std::int64_t began = 0;  // monotonic clock, ns
+    double sender_nanos = 0;  // the sender's clock at it
+    std::int64_t began = 0;   // of its quarter of a second; monotonic clock, ns
   };
-  std::optional<Minimum> current_;   // of the current 2 s
-  std::optional<Minimum> previous_;  // of the previous 2 s
+  std::deque<Minimum> minima_;  // of each quarter of a second, the newest one at the end
+  double drift_ = 0;            // of the offset, s per second of the sender's clock
   std::optional<std::int64_t> last_stamp_;
   std::int64_t last_wall_ = 0;
 };

@@ -78,6 +78,25 @@ TEST_F(ClockFitTest, FollowsASenderWhoseClockDrifts) {
   }
 }
 
+// A recording that is played at half its speed, for example: the stamps were up to half a second
+// late, in a saw-tooth.
+TEST_F(ClockFitTest, FollowsASenderThatIsSlowerThanItsTimeCode) {
+  for (const double speed : {0.9, 0.5, 0.2}) {
+    ClockFit fit;
+    double worst_late = 0, worst_early = 0;
+    for (std::uint32_t counter = 0; counter < 20 * 240; ++counter) {
+      const double sent = counter * kPeriod / speed;
+      const std::int64_t stamp = fit.Stamp(counter, MillisOf(counter), ArriveAt(sent + Delay()));
+      if (sent < 1e9) continue;  // the fit has not seen how fast it is
+      const double error = static_cast<double>(stamp - kEpoch) - sent;
+      worst_late = std::max(worst_late, error);
+      worst_early = std::min(worst_early, error);
+    }
+    EXPECT_LT(worst_late, 30e6) << "speed " << speed;
+    EXPECT_GT(worst_early, -30e6) << "speed " << speed;
+  }
+}
+
 TEST_F(ClockFitTest, ReturnsIncreasingTimeStampsNotAfterTheReceiveTime) {
   std::int64_t last_stamp = 0;
   double last_arrival = 30 * kPeriod;  // the first thirty come in one burst, as MVN sends them

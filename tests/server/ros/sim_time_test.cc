@@ -2,6 +2,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Clock.h>
 
