@@ -16,6 +16,7 @@
 namespace kinescope {
 namespace {
 
+using testing::RunProgram;
 using ::testing::StartsWith;
 
 // An IPv4 address of this computer that is not 127.x; "" if it has none.
