@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <tf2_msgs/TFMessage.h>
+#include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <map>
 
@@ -11,6 +12,8 @@
 #include "server/ros/raw_message.h"
 #include "server/ros/source/bag_markers.h"
 #include "server/ros/source/bag_messages.h"
+#include "server/ros/source/link_states_person.h"
+#include "server/ros/source/motion_joiner.h"
 #include "server/ros/source/transform_people.h"
 
 namespace kinescope::ros_bridge {
@@ -21,15 +24,29 @@ constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for fra
 
 constexpr char kUnreadableTransforms[] =
     "message on /tf that is truncated or has a wrong length field";
+constexpr char kUnreadableLinkStates[] =
+    "message of link states that is truncated or has a wrong length field";
 constexpr char kOtherType[] = "message on /tf that is not a TFMessage";
 
 bool IsStatic(const std::string& topic) { return topic == "/tf_static" || topic == "tf_static"; }
 bool IsMoving(const std::string& topic) { return topic == "/tf" || topic == "tf"; }
+bool IsLinkStates(const BagConnection& connection) {
+  return connection.md5sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>();
+}
 
 struct Appearances {
   std::uint64_t count = 0;
   std::int64_t first_nanos = 0;
   std::int64_t last_nanos = 0;
+
+  void Add(std::int64_t now) {
+    if (count++ == 0) first_nanos = now;
+    last_nanos = now;
+  }
+  double rate_hz() const {  // 0: unknown
+    if (count < 2 || last_nanos <= first_nanos) return 0;
+    return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_nanos - first_nanos);
+  }
 };
 
 class BagSource : public Source {
@@ -51,7 +68,8 @@ class BagSource : public Source {
     return IsMoving(connection.topic) || IsStatic(connection.topic);
   }
   static bool IsUsed(const BagConnection& connection) {
-    return HasTransforms(connection) || BagMarkers::IsMarkers(connection);
+    return HasTransforms(connection) || IsLinkStates(connection) ||
+           BagMarkers::IsMarkers(connection);
   }
 
   void ReadNames();
@@ -63,12 +81,16 @@ class BagSource : public Source {
   /// Why nothing of `message` can be used, or null; otherwise it is in message_.
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message, SampleSink& sink);
+  void TakeLinkStates(const BagMessage& message, SampleSink& sink);
   State End();
 
   const std::string name_;
   BagMessages messages_;
   tf2_msgs::TFMessage message_;
+  xsens_mvn_ros_msgs::LinkStateArray link_states_;
   TransformPeople people_{0};
+  MotionJoiner joiner_;
+  std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
   BagMarkers markers_;
   std::string world_;
   bool has_ended_ = false;
@@ -81,8 +103,10 @@ SourceError ErrorIn(const std::string& name, const std::string& what) {
 }
 
 void BagSource::ReadNames() {
-  BagMessages ahead(OpenBagFile(name_), HasTransforms);
-  std::map<std::string, Appearances> appearances;
+  BagMessages ahead(OpenBagFile(name_), [](const BagConnection& connection) {
+    return HasTransforms(connection) || IsLinkStates(connection);
+  });
+  std::map<std::string, Appearances> appearances, of_link_states;
   std::int64_t end = 0;
   bool has_ended = true;
   BagMessage message;
@@ -94,15 +118,25 @@ void BagSource::ReadNames() {
       has_ended = false;
       break;
     }
+    if (IsLinkStates(*message.connection)) {
+      of_link_states[message.connection->topic].Add(now);
+      continue;
+    }
     if (Decode(message) != nullptr) continue;
     for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
       if (!people_.AddName(transform.child_frame_id)) continue;
-      Appearances& of_frame = appearances[WithoutSlash(transform.child_frame_id)];
-      if (of_frame.count++ == 0) of_frame.first_nanos = now;
-      of_frame.last_nanos = now;
+      appearances[WithoutSlash(transform.child_frame_id)].Add(now);
     }
   }
   people_.FindPeople();
+  if (!of_link_states.empty()) joiner_.Expect();
+  if (people_.people().empty() && !of_link_states.empty()) {
+    for (const auto& [topic, appearance] : of_link_states) {
+      links_.try_emplace(topic, OwnerOfTopic(topic), static_cast<int>(links_.size()));
+    }
+    rate_hz_ = of_link_states.begin()->second.rate_hz();
+    return;
+  }
   if (people_.people().empty()) {
     if (has_ended) CheckEnding(ahead);
     if (ahead.ending().kind == BagReader::Ending::Kind::kTruncated && has_ended) {
@@ -114,16 +148,14 @@ void BagSource::ReadNames() {
     throw ErrorIn(name_, ahead.HasTopic(IsMoving)
                              ? "no person found on /tf; expected 23 frames with segment names, "
                                "such as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe"
-                             : "contains no /tf topic, so no poses; record it with `rosbag record "
-                               "/tf`");
+                             : "contains neither /tf nor link_states, so no poses; record it with "
+                               "`rosbag record /tf`");
   }
-  const Appearances& pelvis = appearances[people_.people().front().frames[urdf::kPelvis]];
-  if (pelvis.count < 2 || pelvis.last_nanos <= pelvis.first_nanos) return;
-  rate_hz_ = static_cast<double>(pelvis.count - 1) * 1e9 /
-             static_cast<double>(pelvis.last_nanos - pelvis.first_nanos);
+  rate_hz_ = appearances[people_.people().front().frames[urdf::kPelvis]].rate_hz();
 }
 
 std::string BagSource::FindWorld() {
+  if (!links_.empty()) return "world";  // the messages do not say it
   struct : SampleSink {
     void OnCharacter(const Character&) override {}
     void OnSample(const BodySample&) override {}
@@ -168,7 +200,11 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
   const std::uint64_t samples_before = counters_.samples;
   BagMessage message;
   for (int i = 0; i < kMessagesPerPoll && counters_.samples == samples_before; ++i) {
-    if (!messages_.Next(message)) return End();
+    if (!messages_.Next(message)) {
+      joiner_.SetSink(&sink);
+      joiner_.Flush();
+      return End();
+    }
     Take(message, sink);
   }
   return State::kMore;
@@ -190,6 +226,7 @@ Source::State BagSource::End() {
 void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   ++counters_.datagrams;
   counters_.bytes += message.size;
+  if (IsLinkStates(*message.connection)) return TakeLinkStates(message, sink);
   if (!HasTransforms(*message.connection)) return markers_.Take(message, counters_);
   if (const char* const defect = Decode(message)) {
     ++counters_.rejected[defect];
@@ -200,9 +237,31 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {
-    markers_.Update(message.recorded_nanos, world_, name_, sink);
-    people_.Take(message_, {message.recorded_nanos, 0}, counters_, sink);
+    joiner_.SetSink(&sink);
+    markers_.Update(message.recorded_nanos, world_, name_, joiner_);
+    people_.Take(message_, {message.recorded_nanos, 0}, counters_, joiner_);
   }
+}
+
+void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
+  const bool is_whole = message.bytes.size() == message.size;
+  if (!is_whole || !kinescope::ros_bridge::Decode(message.bytes, link_states_)) {
+    ++counters_.rejected[kUnreadableLinkStates];
+    return;
+  }
+  if (links_.empty()) {
+    joiner_.SetSink(&sink);
+    joiner_.Take(link_states_, counters_);
+    return;
+  }
+  // A topic that began after the people were looked for.
+  const auto person = links_.find(message.connection->topic);
+  if (person == links_.end()) {
+    ++counters_.ignored["topic " + message.connection->topic];
+    return;
+  }
+  markers_.Update(message.recorded_nanos, world_, name_, sink);
+  person->second.Take(link_states_, {message.recorded_nanos, 0}, counters_, sink);
 }
 
 SourceCounters BagSource::counters() const {

@@ -1,5 +1,6 @@
-/// Reads people from a ROS 1 bag: assembles the transforms on its /tf to samples. Needs no ROS
-/// master. In a build without ROS the function throws a SourceError.
+/// Reads people from a ROS 1 bag: assembles the transforms on its /tf to samples, with the
+/// velocities and accelerations of link_states. Needs no ROS master. In a build without ROS the
+/// function throws a SourceError.
 #pragma once
 
 #include <memory>
@@ -31,8 +32,11 @@ namespace kinescope::ros_bridge {
 ///   later than the one before. From the first stamp that is not, the times of the bag are used. An
 ///   equal stamp is the same sample again: a `duplicate`. An earlier stamp is a `restart`.
 /// - counter = sample number, from 0; time code = time since the person's first sample. A bag has
-///   no derivatives and no CoM; the Character has a skeleton, measured on the first sample, and
-///   again when the lengths change permanently (skeleton_watch.h).
+///   no CoM, and derivatives only with link_states (motion_joiner.h); the Character has a skeleton,
+///   measured on the first sample, and again when the lengths change permanently
+///   (skeleton_watch.h).
+/// - A bag without people on /tf has one person for each topic of LinkStateArray, whatever its
+/// name.
 /// - Markers of other nodes are delivered with the samples (bag_markers.h).
 /// - counters(): a datagram is a message, or a damaged record; other topics are counted in
 /// `ignored`

@@ -25,14 +25,6 @@ constexpr std::int64_t kSettleNanos = 250'000'000;
 constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
 constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
 
-// "xsens" of "/xsens/link_states".
-std::string OwnerOf(const std::string& topic) {
-  const std::size_t end = topic.rfind('/');
-  if (end == std::string::npos || end == 0) return "";
-  const std::size_t begin = topic.rfind('/', end - 1) + 1;
-  return topic.substr(begin, end - begin);
-}
-
 std::string ToTopic(const std::string& url) {
   const std::string name = url.substr(kScheme.size());
   std::string why;
@@ -77,7 +69,7 @@ class GraphSource : public Source {
   explicit GraphSource(const std::string& topic)
       : description_("ros:" + topic),
         people_(kSettleNanos),
-        link_states_(OwnerOf(topic)),
+        link_states_(OwnerOfTopic(topic)),
         names_(TopicsBeside(topic)),
         topics_(names_, description_, [this](std::size_t index, const LiveTopics::Event& event) {
           OnMessage(index, event);

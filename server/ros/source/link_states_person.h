@@ -14,10 +14,14 @@
 
 namespace kinescope::ros_bridge {
 
+/// "xsens" of "/xsens/link_states": a name for the person, of whom the messages have none.
+std::string OwnerOfTopic(const std::string& topic);
+
 class LinkStatesPerson {
  public:
-  /// `name`: of the person. Such a topic belongs to one person, and a source has one of them.
-  explicit LinkStatesPerson(std::string name) : name_(std::move(name)) {}
+  /// `name` and `character`: of the person. Such a topic belongs to one person.
+  explicit LinkStatesPerson(std::string name, int character = 0)
+      : name_(std::move(name)), character_(character), transforms_(character) {}
 
   /// Processes one message: 23 link states, identified by the bare names in their headers; others
   /// are skipped. Stamp: that of the array, else (xsens_mvn_ros leaves it empty) that of the
@@ -28,7 +32,8 @@ class LinkStatesPerson {
 
  private:
   const std::string name_;
-  TransformPerson transforms_{0};
+  const int character_;
+  TransformPerson transforms_;
   SkeletonWatch skeleton_;
   bool is_known_ = false;  // delivered to the sink
 };

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/system/errors.h"
+#include "server/ros/link_states.h"
 #include "server/ros/source/people_frames.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/transforms.h"
@@ -173,6 +174,67 @@ class BagTest : public ::testing::Test {
 
   TempFolder folder_;
 };
+
+xsens_mvn_ros_msgs::LinkStateArray LinkStatesOf(const PersonState& person) {
+  xsens_mvn_ros_msgs::LinkStateArray message;
+  FillLinkStates(person, "world", message);
+  return message;
+}
+
+void ExpectMotion(const BodySample& sample, const PersonState& person) {
+  EXPECT_TRUE(sample.has_linear && sample.has_angular) << "sample " << sample.counter;
+  const SegmentState& got = sample.segments[urdf::kLeftHand];
+  const SegmentState& sent = person.sample.segments[urdf::kLeftHand];
+  EXPECT_EQ(got.velocity, sent.velocity);
+  EXPECT_EQ(got.angular_acceleration, sent.angular_acceleration);
+}
+
+// Loads are those of the motion then, and not of someone who stands still.
+TEST_F(BagTest, HasTheVelocitiesOfLinkStatesBeforeOrAfterTheTransforms) {
+  const Recorded recorded = ReadBag(Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 20; ++n) {
+      const PersonState one = PersonAt(n, "anna");
+      PersonState other = PersonAt(n + 3, "ben");
+      other.sample.stamp_nanos = one.sample.stamp_nanos;
+      for (auto& link : other.links) link.position.x() += 2;
+      for (auto& segment : other.sample.segments) segment.position.x() += 2;
+      const std::int64_t late = kStart + n * kPeriod + 2'000'000;
+      const bool is_before = n % 2 == 1;
+      bag.write("/tf", TimeOf(late), TransformsOf(one));
+      bag.write("/tf", TimeOf(late + 1000), TransformsOf(other));
+      bag.write("/xsens/link_states", TimeOf(late + (is_before ? -2000 : 2000)), LinkStatesOf(one));
+      bag.write("/xsens/ben/link_states", TimeOf(late + (is_before ? -1000 : 3000)),
+                LinkStatesOf(other));
+    }
+  }));
+  ASSERT_EQ(recorded.samples.size(), 40U);
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  for (const BodySample& sample : recorded.samples) {
+    const int n = static_cast<int>(sample.counter) + (sample.character == 0 ? 0 : 3);
+    ExpectMotion(sample, PersonAt(n));
+  }
+}
+
+TEST_F(BagTest, ReadsPeopleOfWhomOnlyLinkStatesWereRecorded) {
+  const Recorded recorded = ReadBag(Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 20; ++n) {
+      const ros::Time time = TimeOf(kStart + n * kPeriod + 2'000'000);
+      bag.write("/xsens/link_states", time, LinkStatesOf(PersonAt(n)));
+      bag.write("/xsens/ben/link_states", time, LinkStatesOf(PersonAt(n + 3)));
+    }
+  }));
+  ASSERT_EQ(recorded.samples.size(), 40U);
+  ASSERT_EQ(recorded.characters.size(), 2U);
+  EXPECT_NE(recorded.characters[0].id, recorded.characters[1].id);
+  EXPECT_NEAR(recorded.rate_hz, 1e9 / kPeriod, 0.1);
+  for (const BodySample& sample : recorded.samples) {
+    if (sample.character != recorded.characters[0].id) continue;
+    const bool is_ben = recorded.characters[0].name.find("ben") != std::string::npos;
+    const PersonState sent = PersonAt(static_cast<int>(sample.counter) + (is_ben ? 3 : 0));
+    ExpectPoses(sample, sent);
+    ExpectMotion(sample, sent);
+  }
+}
 
 // What somebody else's driver streamed from a suit, next to a robot with a head and hands of its
 // own.
@@ -531,9 +593,9 @@ TEST_F(BagTest, RejectsUnreadableFilesWithNameAndRemedy) {
                                        HasSubstr("skeleton_pelvis")));
   const std::string no_tf =
       Bag([](rosbag::Bag& out) { out.write("/chatter", TimeOf(kStart), std_msgs::String()); });
-  EXPECT_THAT(RefusalOf(no_tf), HasSubstr("contains no /tf"));
+  EXPECT_THAT(RefusalOf(no_tf), HasSubstr("contains neither /tf nor link_states"));
   const std::string empty = Bag([](rosbag::Bag&) {});
-  EXPECT_THAT(RefusalOf(empty), HasSubstr("contains no /tf"));
+  EXPECT_THAT(RefusalOf(empty), HasSubstr("contains neither /tf nor link_states"));
 }
 
 std::string Gzip(const std::string& path) {
