@@ -20,7 +20,7 @@ fi
 export HOME=$room XDG_CACHE_HOME=$room/cache
 cd "$room"
 program=$room/opt/bin/kinescope
-hide "$program" render demo:lift --at 1 --size 320x240 --out a.png > /dev/null || fail "render does not work"
+hide "$program" render demo:lift --time 1 --size 320x240 --out a.png > /dev/null || fail "render does not work"
 hide "$program" golden compare a.png a.png || fail "golden compare does not work"
 hide "$program" urdf --out person > /dev/null || fail "urdf does not work"
 

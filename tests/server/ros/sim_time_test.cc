@@ -99,7 +99,7 @@ TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
   for (const double start : {100.0, 3.0}) {
     const std::vector<double> stamps = Run(start, 60);
     EXPECT_LT(worst_error_, 10);
-    EXPECT_GE(stamps.front(), start);
+    EXPECT_GE(stamps.front(), start - 0.1);
     EXPECT_EQ(std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()),
               stamps.end())
         << "tf2 drops what has the stamp of the transform before";

@@ -117,6 +117,7 @@ TEST_F(RobotStatePublisher, PublishesTheSameTreeForStreamedGlovesAndProps) {
 
 TEST_F(RobotStatePublisher, MakesTheRestOfATreeThatBeginsWithThePelvis) {
   const auto bridge = Start("bridge demo:lift --tf off --ros required");
+  WaitForParameter("/robot_description");
   const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher",
                            "joint_states:=/kinescope/joint_states"});
   Tree tree;
