@@ -4,7 +4,9 @@
 set -euo pipefail
 build=$1
 room=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; wait; rm -rf "$room"' EXIT
+set -m  # each program in the background is a process group, which ends as a whole
+stop() { for job in $(jobs -p); do kill -- "-$job" 2> /dev/null || true; done; wait; }
+trap 'stop; rm -rf "$room"' EXIT
 source=$(cd "$(dirname "$0")/../.." && pwd)
 
 fail() { echo "$*" >&2; exit 1; }
@@ -28,11 +30,11 @@ hide "$program" serve demo:lift --ros off --http_port 0 --pictures off 2> serve.
 for _ in $(seq 600); do grep -q 'page at ' serve.log && break; sleep 0.1; done  # another process writes the file
 page=$(sed -n 's/.*page at \(http[^ ]*\).*/\1/p' serve.log)
 [ -n "$page" ] || fail "serve does not start: $(cat serve.log)"
-for file in '' app.js node_modules/three/build/three.module.js node_modules/uplot/dist/uPlot.esm.js; do
+for file in '' app.js lib/three/three.module.js lib/uplot/uPlot.esm.js; do
   curl -sf "$page$file" > page.txt || fail "the page has no $file"
   [ -s page.txt ] || fail "$file of the page is empty"
 done
-kill %1; wait %1 || true
+stop
 
 [ -d "$room/opt/share/kinescope/launch" ] || { echo "without ROS"; exit 0; }
 export ROS_HOME=$room/ros ROS_IP=127.0.0.1 ROS_PACKAGE_PATH=$room/opt/share:/usr/share PYTHONPATH=$room/opt/lib/python3/dist-packages
