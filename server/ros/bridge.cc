@@ -231,7 +231,7 @@ class Bridge : public RosBridge {
                         transforms_, [this] { registration_.WantTransforms(); }});
     };
     wiring.on_transforms = [this](const tf2_msgs::TFMessage& message, bool is_static) {
-      transforms_->Add(message, is_static);
+      return transforms_->Add(message, is_static);
     };
     wiring.markers = markers_in_;
     wiring.on_mark = [this](const std::string& text) { marks_in_.push_back(text); };

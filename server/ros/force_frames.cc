@@ -21,6 +21,10 @@ bool IsGood(const geometry_msgs::TransformStamped& stamped) {
          std::isfinite(p.y) && std::isfinite(p.z) && std::abs(norm - 1) < kMaxOff;
 }
 
+// tf2 refuses what is older than all that it keeps. Once nothing else comes, the clock of the
+// senders was set back: a bag that is played again, a simulator that was started over.
+constexpr int kTooOldForAJump = 20;
+
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {
   const bool has_model =
       frame.size() > model.size() + 1 && frame[model.size()] == '_' && StartsWith(frame, model);
@@ -32,8 +36,17 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
 int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
   int refused = 0;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    const bool good = IsGood(transform) && buffer_.setTransform(transform, "/tf", is_static);
-    refused += good ? 0 : 1;
+    if (!IsGood(transform)) {
+      ++refused;
+    } else if (buffer_.setTransform(transform, "/tf", is_static)) {
+      if (!is_static) too_old_in_a_row_ = 0;
+    } else if (++too_old_in_a_row_ >= kTooOldForAJump) {
+      buffer_.clear();  // static ones stay
+      too_old_in_a_row_ = 0;
+      refused += buffer_.setTransform(transform, "/tf", is_static) ? 0 : 1;
+    } else {
+      ++refused;
+    }
   }
   return refused;
 }

@@ -19,7 +19,8 @@ namespace kinescope::ros_bridge {
 class TfTree {
  public:
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
-  /// an invalid quaternion) and returns their number.
+  /// an invalid quaternion) or older than all that are kept, and returns their number. If nothing
+  /// else comes, time was set back: what was kept is forgotten then.
   int Add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
@@ -28,6 +29,7 @@ class TfTree {
 
  private:
   tf2::BufferCore buffer_;
+  int too_old_in_a_row_ = 0;
 };
 
 /// The person at the sensors, as in the newest sample. World frame, metres.

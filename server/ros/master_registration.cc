@@ -45,6 +45,7 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr std::uint32_t kMarkQueue = 100;
+constexpr char kUnreadable[] = "is truncated or has a wrong length field";
 constexpr char kDescription[] = "robot_description";
 // A stream may change the body with every sample. Each one that is described has its meshes
 // written, so the newest one follows after this time.
@@ -325,7 +326,7 @@ ros::Subscriber MasterRegistration::SubscribeMarks() {
   auto options = ros::SubscribeOptions::create<Heard>(
       "mark", kMarkQueue,
       [this](const boost::shared_ptr<const Heard>& heard) {
-        if (!heard->is_sound) return CountUnreadable("mark");
+        if (!heard->is_sound) return CountRefused("mark", kUnreadable);
         wiring_.on_mark(heard->message.data);
       },
       ros::VoidConstPtr(), wiring_.queue);
@@ -339,18 +340,19 @@ ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool 
       topic, kSampleQueue, [this, topic, is_static](const Event& event) {
         const BoundedMessage<tf2_msgs::TFMessage>& bounded = *event.getConstMessage();
         if (event.getPublisherName() == ros::this_node::getName()) return;
-        if (!bounded.is_sound) return CountUnreadable(topic);
-        wiring_.on_transforms(bounded.message, is_static);
+        if (!bounded.is_sound) return CountRefused(topic, kUnreadable);
+        const int refused = wiring_.on_transforms(bounded.message, is_static);
+        if (refused > 0) CountRefused(topic, "has a transform that is invalid or too old");
       });
   options.callback_queue = wiring_.queue;
   return node_->subscribe(options);
 }
 
-void MasterRegistration::CountUnreadable(const char* topic) {
+void MasterRegistration::CountRefused(const char* topic, const char* kind) {
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = status_.inputs[topic];
   ++counters.received;
-  ++counters.refused["is truncated or has a wrong length field"];
+  ++counters.refused[kind];
 }
 
 // roscpp registers a topic when it is advertised, and never again. So topics are registered at
@@ -390,7 +392,7 @@ void MasterRegistration::SetParameters() {
   SetDescriptions();
 }
 
-// Whether another program has set it. What a Kinescope has written may be replaced.
+// Whether another program has set it. What a Kinescope has written is taken for our own.
 bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
   constexpr std::size_t kBeginning = 400;  // bytes, in which a URDF of ours says so
   XmlRpcValue arguments;
@@ -407,13 +409,30 @@ bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
   return text.substr(0, kBeginning).find(urdf::kWrittenByKinescope) == std::string::npos;
 }
 
+// Whether a Kinescope that runs beside this one has its person in it.
+bool MasterRegistration::IsOfAnotherNode(const std::string& parameter) {
+  for (const RunningNode& node : OtherNodes()) {
+    for (const RunningPerson& person : node.people) {
+      if (person.description == ros::names::resolve(parameter)) return true;
+    }
+  }
+  return false;
+}
+
 // The parameter of a URDF at this master; nullopt: the master does not answer. A robot keeps its
-// own.
+// own, or gets it back if it is started after us.
 std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& prefix) {
-  const auto known = description_names_.find(prefix);
-  if (known != description_names_.end()) return known->second;
   if (prefix.empty() && !config_.description.empty()) {
     return description_names_[prefix] = config_.description;
+  }
+  const auto known = description_names_.find(prefix);
+  if (known != description_names_.end()) {
+    bool answers = true;
+    const bool is_others = described_.count(known->second) != 0 && IsOthers(known->second, answers);
+    if (!answers) return std::nullopt;
+    if (!is_others) return known->second;
+    described_.erase(known->second);
+    description_names_.erase(known);
   }
   const std::string usual = prefix + kDescription;
   for (const std::string& name :
@@ -421,7 +440,7 @@ std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& 
     bool answers = true;
     const bool is_others = IsOthers(name, answers);
     if (!answers) return std::nullopt;
-    if (is_others) continue;
+    if (is_others || IsOfAnotherNode(name)) continue;
     if (name != usual) {
       spdlog::warn(
           "the parameter {} belongs to another program and stays as it is: the URDF of the person "
@@ -512,16 +531,24 @@ void MasterRegistration::TellWhatIsPublished(const std::map<std::string, std::st
   if (config_.tf != "none") WarnOfTheSameFrames(models);
 }
 
-// A frame with two publishers jumps between two poses.
-void MasterRegistration::WarnOfTheSameFrames(const std::map<std::string, std::string>& models) {
+// The other Kinescope nodes; none if the master has just gone.
+std::vector<RunningNode> MasterRegistration::OtherNodes() {
   std::vector<RunningNode> nodes;
   try {
     nodes = FindRunningNodes();
-  } catch (const UsageError&) {  // the master has just gone
-    return;
+  } catch (const UsageError&) {
   }
-  for (const RunningNode& node : nodes) {
-    if (node.name == ros::this_node::getName() || !node.has_frames) continue;
+  const auto is_this = [](const RunningNode& node) {
+    return node.name == ros::this_node::getName();
+  };
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_this), nodes.end());
+  return nodes;
+}
+
+// A frame with two publishers jumps between two poses.
+void MasterRegistration::WarnOfTheSameFrames(const std::map<std::string, std::string>& models) {
+  for (const RunningNode& node : OtherNodes()) {
+    if (!node.has_frames) continue;
     for (const RunningPerson& person : node.people) {
       const bool is_same = std::any_of(models.begin(), models.end(), [&](const auto& ours) {
         return ours.second == person.model;

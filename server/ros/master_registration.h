@@ -29,6 +29,7 @@
 #include "server/ros/master_client.h"
 #include "server/ros/node_topics.h"
 #include "server/ros/ros_camera_topics.h"
+#include "server/ros/running.h"
 
 namespace kinescope::ros_bridge {
 
@@ -43,7 +44,8 @@ struct PersonTopics {
 struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // must outlive the registration
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
-  std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
+  /// Of other nodes; returns how many transforms it refuses.
+  std::function<int(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
   std::shared_ptr<MarkerInbox> markers;                  // null: no marker topics
   std::function<void(const std::string& text)> on_mark;  // of `~mark`
   std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)>
@@ -99,7 +101,7 @@ class MasterRegistration {
   void Subscribe();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
-  void CountUnreadable(const char* topic);  // on the thread of the queue
+  void CountRefused(const char* topic, const char* kind);  // on the thread of the queue
   enum class Latch { kNo, kYes };           // whether who subscribes later hears the last message
   template <class Message>
   ros::Publisher Topic(const std::string& name, Latch latch = Latch::kNo);
@@ -107,6 +109,8 @@ class MasterRegistration {
   void SetParameters();
   void SetDescriptions();
   bool IsOthers(const std::string& parameter, bool& answers);
+  bool IsOfAnotherNode(const std::string& parameter);
+  static std::vector<RunningNode> OtherNodes();
   std::optional<std::string> DescriptionOf(const std::string& prefix);
   std::string UrdfOf(const PersonModel& model) const;
   void TellWhatIsPublished(const std::map<std::string, std::string>& models);

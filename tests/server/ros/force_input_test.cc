@@ -270,6 +270,31 @@ TEST(Frames, AreFoundByEveryLinkNameInTfAndBelowALink) {
   EXPECT_FALSE(find(""));
 }
 
+// As when a bag is played again: tf2 refuses what is ten seconds older than the newest.
+TEST(Frames, AreThoseOfTheNewTimeAfterTimeWasSetBack) {
+  TfTree tf;
+  tf2_msgs::TFMessage late = Frame("world", "plate", 1);
+  late.transforms[0].header.stamp = ros::Time(100, 0);
+  EXPECT_EQ(tf.Add(late, false), 0);
+  EXPECT_EQ(tf.Add(Frame("world", "wall", 4), true), 0);
+  const auto x = [&](const std::string& frame) {
+    const auto pose = tf.Find("world", frame, 2'000'000'000);
+    return pose ? pose->position.x() : kNan;
+  };
+  int refused = 0;
+  for (int i = 0; i < 5; ++i) refused += tf.Add(Frame("world", "plate", 2), false);
+  EXPECT_EQ(refused, 5);
+  EXPECT_EQ(x("plate"), 1) << "a few late transforms are late, and no more";
+  EXPECT_EQ(tf.Add(late, false) + tf.Add(Frame("world", "door", 3), false), 1);
+  for (int i = 0; i < 30; ++i) {
+    tf2_msgs::TFMessage again = Frame("world", "plate", 5);
+    again.transforms[0].header.stamp = ros::Time(2, 1 + i);
+    tf.Add(again, false);
+  }
+  EXPECT_EQ(x("plate"), 5);
+  EXPECT_EQ(x("wall"), 4) << "a static frame is sent once";
+}
+
 TEST(Frames, AreRejectedIfInvalid) {
   TfTree tf;
   EXPECT_EQ(tf.Add(Frame("world", "world", 0), false), 1);

@@ -144,6 +144,69 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfARobotAsItIs) {
   EXPECT_EQ(call("getParam", "/robot_description"), arm);
 }
 
+TEST_F(RosBridgeWithMaster, GivesUpTheDescriptionOfARobotThatIsStartedLater) {
+  StartMaster();
+  BridgeConfig config;
+  config.initial_model = model_;
+  MakeBridge(config);
+  const auto parameter = [](const char* method, const std::string& name, const char* value) {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = name;
+    if (value != nullptr) arguments[1] = std::string(value);
+    MasterReply reply = MasterClient().Call(method, arguments);
+    const bool is_text = reply.value.getType() == XmlRpc::XmlRpcValue::TypeString;
+    return is_text ? static_cast<std::string>(reply.value) : std::string();
+  };
+  const auto get = [&](const std::string& name) { return parameter("getParam", name, nullptr); };
+  ASSERT_TRUE(
+      Within(kTestPatience, [&] { return get("/robot_description") == model_->urdf_xml; }));
+  const char arm[] = "<robot name=\"arm\"><link name=\"base\"/></robot>";
+  parameter("setParam", "/robot_description", arm);
+  EXPECT_TRUE(
+      Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
+  const SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
+  Publish(state);
+  EXPECT_TRUE(Within(kTestPatience, [&] {
+    return get("/human_description") == state.people[0].model->urdf_xml;
+  }));
+  EXPECT_EQ(get("/robot_description"), arm);
+}
+
+TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
+  StartMaster();
+  const auto call = [](const char* method, XmlRpc::XmlRpcValue arguments) {
+    return MasterClient().Call(method, arguments).value;
+  };
+  // What a bridge called /suit tells the master, and one of its topics.
+  XmlRpc::XmlRpcValue description, published, topic;
+  description[0] = "/robot_description";
+  description[1] = model_->urdf_xml + " ";
+  published[0] = "/suit/published";
+  published[1]["reference_frame"] = "world";
+  published[1]["people"][0]["model"] = "skeleton";
+  published[1]["people"][0]["description"] = "/robot_description";
+  published[1]["people"][0]["topics"] = "/suit/";
+  topic[0] = "/suit";
+  topic[1] = "/suit/joint_loads";
+  topic[2] = "kinescope/JointLoadArray";
+  topic[3] = "http://127.0.0.1:1/";
+  call("setParam", description);
+  call("setParam", published);
+  call("registerPublisher", topic);
+  BridgeConfig config;
+  config.initial_model = model_;
+  MakeBridge(config);
+  const auto get = [&](const char* name) {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = name;
+    const XmlRpc::XmlRpcValue value = call("getParam", arguments);
+    return value.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(value) : "";
+  };
+  EXPECT_TRUE(
+      Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
+  EXPECT_EQ(get("/robot_description"), model_->urdf_xml + " ");
+}
+
 TEST_F(RosBridgeWithMaster, WritesTheDescriptionWhereItIsTold) {
   StartMaster();
   BridgeConfig config;
