@@ -49,17 +49,21 @@ void MotionJoiner::Flush() {
   waiting_.clear();
 }
 
+void MotionJoiner::FlushOf(int character) {
+  const auto waiting = waiting_.find(character);
+  if (waiting == waiting_.end()) return;
+  sink_->OnSample(waiting->second);
+  waiting_.erase(waiting);
+}
+
+// Another person's sample goes on waiting: its link states may be the next message.
 void MotionJoiner::OnCharacter(const Character& character) {
-  Flush();
+  FlushOf(character.id);
   sink_->OnCharacter(character);
 }
 
 void MotionJoiner::OnSample(const BodySample& sample) {
-  const auto before = waiting_.find(sample.character);
-  if (before != waiting_.end()) {
-    sink_->OnSample(before->second);
-    waiting_.erase(before);
-  }
+  FlushOf(sample.character);
   if (!are_there_) return sink_->OnSample(sample);
   BodySample joined = sample;
   for (auto message = early_.begin(); message != early_.end(); ++message) {
@@ -68,11 +72,6 @@ void MotionJoiner::OnSample(const BodySample& sample) {
     return sink_->OnSample(joined);
   }
   waiting_.emplace(sample.character, sample);
-}
-
-void MotionJoiner::OnRecordedMarkers(const MarkerList& markers) {
-  Flush();
-  sink_->OnRecordedMarkers(markers);
 }
 
 }  // namespace kinescope::ros_bridge

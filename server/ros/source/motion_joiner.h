@@ -1,8 +1,9 @@
 /// Adds the velocities and accelerations of link_states to the samples that /tf makes, which have
 /// none. Both are recorded from one sample of the suit, with one stamp, in any order.
 ///
-/// A sample waits for its link states until the next sample of its person. What passes is delivered
-/// as it came: a bag without link_states is read as if this was not here. One thread.
+/// A sample waits for its link states until the next sample of its person; markers do not, so a
+/// sample that waits gets those that come meanwhile. A bag without link_states is read as if this
+/// was not here. One thread.
 #pragma once
 
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
@@ -30,11 +31,12 @@ class MotionJoiner : public SampleSink {
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& objects) override { sink_->OnObjects(objects); }
-  void OnRecordedMarkers(const MarkerList& markers) override;
+  void OnRecordedMarkers(const MarkerList& markers) override { sink_->OnRecordedMarkers(markers); }
 
  private:
   static constexpr std::size_t kMostMessages = 32;  // that no sample has been found for yet
 
+  void FlushOf(int character);
   static bool Join(const xsens_mvn_ros_msgs::LinkStateArray& message, BodySample& sample);
 
   SampleSink* sink_ = nullptr;
