@@ -66,7 +66,7 @@ std::optional<Found> YamlOptions::Look(const std::string& name) const {
   return Found{value.Scalar(), place};
 }
 
-void YamlOptions::SetAll(OptionList& options) const {
+void YamlOptions::SetAll(OptionList& options, const char* help) const {
   std::map<std::string, int> lines;
   for (const auto& entry : root_->node) {
     if (!entry.first.IsScalar()) {
@@ -80,9 +80,9 @@ void YamlOptions::SetAll(OptionList& options) const {
                                    line, key, first->second));
     }
     if (options.Find(key) != nullptr) continue;
-    throw UsageError(fmt::format("{}unknown option '{}'{} (see --help)",
+    throw UsageError(fmt::format("{}unknown option '{}'{} (see {})",
                                  PlaceOf(path_, entry.first), key,
-                                 SuggestionFor(key, options.Names())));
+                                 SuggestionFor(key, options.Names()), help));
   }
   const auto look = [&](const std::string& name) {
     const Option* const option = options.Find(name);

@@ -24,8 +24,9 @@ class YamlOptions {
   std::optional<Found> LookForList(const std::string& name) const;
 
   /// Sets `options` that were not given before, and refuses a name that none of them has.
+  /// @param help  what lists all names, for the error
   /// @throws UsageError naming file, line, name and the nearest one.
-  void SetAll(OptionList& options) const;
+  void SetAll(OptionList& options, const char* help = "--help") const;
 
  private:
   struct Root;  // keeps yaml-cpp out of here

@@ -40,4 +40,32 @@ for job in ("github.yml", "gitlab.yml"):
         assert suite.get("failures") == "1", xml.etree.ElementTree.tostring(suite)
         accepted = run(["kinescope", "golden", "accept", "golden-run"], folder)
         assert accepted.returncode == 2 and "CI=true" in accepted.stdout, accepted.stdout
+DOCS = EXAMPLE.parent
+
+
+def steps_of(document, heading):
+    """The commands below a heading, and the exit code that a comment states."""
+    block = re.search(rf"## {heading}\n```console\n(.*?)```", document, re.S).group(1)
+    for line in block.splitlines():
+        code = re.search(r"# exit code (\d)", line)
+        yield shlex.split(line.removeprefix("$ "), comments=True), int(code.group(1)) if code else 0
+
+
+with tempfile.TemporaryDirectory() as folder:
+    steps = list(steps_of((DOCS / "golden.md").read_text(), "From an empty folder"))
+    assert len(steps) == 4, steps
+    for words, code in steps:
+        done = subprocess.run(words, cwd=folder, env={"PATH": str(PROGRAM.parent)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, timeout=120)
+        assert done.returncode == code, f"{words}: exit code {done.returncode}, not {code}: {done.stdout}"
+
+table = subprocess.run([sys.executable, DOCS / "golden_keys.py", PROGRAM], stdout=subprocess.PIPE, text=True, check=True).stdout
+assert table == (DOCS / "golden_keys.md").read_text(), "run docs/golden_keys.py build/dev/bin/kinescope > docs/golden_keys.md"
+
+# The packages that the image installs are those without a mark.
+command = re.search(r"(grep .* packages\.txt) \| xargs", (EXAMPLE / "Dockerfile").read_text()).group(1)
+listed = subprocess.run(shlex.split(command), cwd=DOCS.parent, stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+expected = [line.split()[0] for line in (DOCS.parent / "packages.txt").read_text().splitlines()
+            if line and not line.startswith("#") and "# test" not in line]
+assert sorted(listed) == sorted(expected), set(listed) ^ set(expected)
 print("ok")

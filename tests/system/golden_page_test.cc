@@ -112,6 +112,31 @@ TEST_F(GoldenPage, IsAcceptedFromTheRunThatDrewIt) {
   EXPECT_EQ(Check({"--strict"}).exit_code, 0);
 }
 
+TEST_F(GoldenPage, IsAnInputSoThatAnotherFileIsNoFaultOfTheProgram) {
+  WritePage("0.72", "0.73");
+  const std::string difference = Difference();
+  EXPECT_THAT(difference, AllOf(HasSubstr("page: the content of report.html has changed"),
+                                HasSubstr("says nothing about the program")));
+  WritePage("0.72", "0.74");
+  const ProgramResult accepted = Golden({"accept", case_ / "out", "report"});
+  EXPECT_NE(accepted.exit_code, 0) << "the run has drawn another file";
+  EXPECT_THAT(accepted.out + accepted.err, HasSubstr("report"));
+}
+
+TEST_F(GoldenPage, IsBlamedForWhatItLoads) {
+  WritePage("<p id=knee>right knee: 0.72</p>", "<p id=knee></p><script src=value.js></script>");
+  const auto write_value = [&](const char* value) {
+    std::ofstream(case_ / "pages of #1/value.js")
+        << "document.getElementById('knee').textContent = '" << value << "'";
+  };
+  write_value("0.72");
+  ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
+  write_value("0.73");
+  EXPECT_THAT(Difference(), AllOf(HasSubstr("knee: expected “0.72”, found “0.73”"),
+                                  HasSubstr("The page has changed:"),
+                                  Not(HasSubstr("The program has changed"))));
+}
+
 TEST_F(GoldenPage, StandsBesideScenes) {
   WriteCase("bend", "source: demo:lift\ntime: 2.5\ncamera: right\nsize: 160x90\n");
   ASSERT_EQ(Golden({"update", case_}).exit_code, 0);

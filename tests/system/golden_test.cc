@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -133,6 +134,63 @@ TEST_F(GoldenCheck, ComparesTheOthersWhenACaseCannotBeDrawn) {
                     HasSubstr("c_missing.yaml: source"), HasSubstr("nowhere.mvnx"),
                     HasSubstr("d_late"), HasSubstr("bend                     same"),
                     HasSubstr("4 of 5 pictures could not be compared")));
+}
+
+TEST_F(GoldenCheck, NamesTheLineThatIsWrong) {
+  WriteCase("a_key", "source: demo:lift\n\ncamra: right\n");
+  WriteCase("b_cut", "source: demo:lift\nsize: 64x64\ncamera: {front");
+  WriteCase("c_missing", "camera: front\nsource: nowhere.mvnx\n");
+  WriteCase("d_late", "source: demo:lift\ntime: 800000\n");
+  WriteCase("e_bomb",
+            "source: demo:lift\n"
+            "a: &a [x, x, x, x, x, x, x, x, x]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a]\n"
+            "c: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b]\nd: [*c, *c, *c, *c, *c, *c, *c, *c]\n");
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out, HasSubstr("unknown option 'camra'; did you mean camera?"));
+  EXPECT_THAT(result.out, HasSubstr("bend                     same"));
+  const auto run = nlohmann::json::parse(testing::ReadFile(case_ / "out/run.json"));
+  const std::map<std::string, int> expected = {{"a_key", 3}, {"b_cut", 3},  {"c_missing", 2},
+                                               {"d_late", 2}, {"e_bomb", 2}, {"bend", 1}};
+  std::map<std::string, int> lines;
+  for (const auto& verdict : run.at("cases")) lines[verdict.at("case")] = verdict.at("line");
+  EXPECT_EQ(lines, expected) << result.out;
+}
+
+TEST_F(GoldenCheck, SaysThatTheAcceptedPictureIsDamaged) {
+  const std::string whole = testing::ReadFile(case_ / "bend.png");
+  for (const std::string& damaged : {whole.substr(0, whole.size() / 2), std::string("no PNG")}) {
+    std::ofstream(case_ / "bend.png", std::ios::binary) << damaged;
+    const ProgramResult result = Check();
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.out, AllOf(HasSubstr("bend.png"), HasSubstr("cannot be read"),
+                                  HasSubstr("what was drawn is what golden.lock names"),
+                                  Not(HasSubstr("The program has changed it"))));
+  }
+}
+
+// The name of an environment makes a check strong or weak; without one it is neither.
+TEST_F(GoldenCheck, FailsIfTheAcceptedEnvironmentIsNotKnown) {
+  app::GoldenLock lock = app::ReadLock(case_ / "golden.lock");
+  lock["bend"].environment.clear();
+  app::WriteLock(case_ / "golden.lock", lock);
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("does not say in which environment"),
+                                Not(HasSubstr("weaker check"))));
+  EXPECT_EQ(Golden({"accept", case_ / "out", "bend"}).exit_code, 0);
+  EXPECT_EQ(Check().exit_code, 0);
+}
+
+TEST_F(GoldenCheck, LeavesNoFileThatLooksLikeACaseUnread) {
+  std::ofstream(case_ / "side.yml") << "source: demo:lift\n";
+  WriteCase("Bend", "source: demo:walk\nsize: 64x64\n");
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("side.yml: is not read: a case ends in .yaml"),
+                    HasSubstr("Bend.yaml: only upper and lower case tell it from bend.yaml"),
+                    HasSubstr("bend.yaml: only upper and lower case tell it from Bend.yaml")));
 }
 
 TEST_F(GoldenCheck, FailsForAPictureThatBelongsToNoCase) {
@@ -308,6 +366,9 @@ TEST_F(GoldenCheck, WritesACaseThatItReads) {
   EXPECT_THAT(testing::ReadFile(case_ / "golden.lock"), HasSubstr("\"title\":\"a: 'b' #c\""));
   ExpectRefusal(Golden({"new", case_, "side", "--source=demo:lift"}), "there is such a case");
   ExpectRefusal(Golden({"new", case_, "../x", "--source=demo:lift"}), "case '../x'");
+  ExpectRefusal(Golden({"new", case_, "typo", "--source=demo:lft"}), "demo:lft");
+  ExpectRefusal(Golden({"new", case_, "typo", "--source=missing.mvnx"}), "missing.mvnx");
+  EXPECT_FALSE(fs::exists(case_ / "typo.yaml"));
   // From here; the case says it from where it is.
   ASSERT_EQ(Kinescope({"golden", "new", case_ / "sub", "robot", "--source=demo:lift",
                        "--robot=" + (case_ / "arm.urdf").string()})
@@ -324,9 +385,20 @@ TEST_F(GoldenCheck, DrawsTheSameBytesUnderAllCircumstances) {
   EXPECT_THAT(result.out, AllOf(HasSubstr("2 pictures, drawn under 10 circumstances:"),
                                 HasSubstr("8 filling threads            2 the same"),
                                 HasSubstr("read-only home               2 the same"),
+                                Not(HasSubstr("not tried")),
                                 HasSubstr("working folder /             2 the same"),
                                 HasSubstr("lowest priority              2 the same")));
   EXPECT_EQ(Golden({"check", case_, "n_pose"}).exit_code, 2) << "stress accepts nothing";
+}
+
+TEST_F(GoldenCheck, SaysUnderWhichCircumstanceWhatChanges) {
+  const ProgramResult result =
+      Kinescope({"golden", "stress", case_}, {"LD_PRELOAD=" KINESCOPE_OTHER_DIGITS});
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("time zone Asia/Kathmandu     DIFFERS\n  bend: "),
+                                HasSubstr(" pixels differ, the first at x "),
+                                HasSubstr(", nearest to "),
+                                HasSubstr("working folder /             1 the same")));
 }
 
 TEST_F(GoldenCheck, SaysUnderWhichCircumstancesNothingIsDrawn) {
@@ -454,6 +526,24 @@ TEST_F(GoldenMutation, OfACameraByHalfADegreeIsNamed) {
   ExpectTold("camera: turned by 0.50°");
 }
 
+// A picture in grey, and a person who does not see red and green, would not notice.
+TEST_F(GoldenMutation, OfTwoColorsOfEqualGreyIsNamed) {
+  constexpr double kRed = 0.299, kGreen = 0.587;
+  render::Image image = render::ReadPng(case_ / "bend.png");
+  std::int64_t swapped = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const double red = image.rgba[i], green = image.rgba[i + 1];
+    if (red - green < 60) continue;  // the sphere of a high load
+    image.rgba[i] = static_cast<std::uint8_t>(std::lround(std::min(255.0, green * kGreen / kRed)));
+    image.rgba[i + 1] = static_cast<std::uint8_t>(std::lround(red * kRed / kGreen));
+    ++swapped;
+  }
+  ASSERT_GT(swapped, 200);
+  Accept(image);
+  ExpectTold("pixels: ");
+  ExpectTold("beyond 0.05 of colour distance");
+}
+
 TEST_F(GoldenMutation, OfLightIsNamed) {
   ChangePixels([](int level, std::size_t) { return std::lround(level / 0.99); });
   ExpectTold("light: ");
@@ -476,6 +566,16 @@ TEST_F(GoldenMutation, OfRoundingPasses) {
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 0) << result.out;
   EXPECT_THAT(result.out, HasSubstr("same (within the limits)"));
+}
+
+// Mesa draws both in software; the name of the other one makes the check weaker, and no failure.
+TEST_F(GoldenMutation, OfTheSoftwareBackendPasses) {
+  const ProgramResult result = Check({"--backend", "egl"});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("same"),
+                                HasSubstr("weaker check, in another environment: backend: was "
+                                          "osmesa, is egl")));
+  EXPECT_EQ(Check({"--backend", "egl", "--strict"}).exit_code, 1);
 }
 
 TEST_F(GoldenMutation, OfTheFileAlonePasses) {
@@ -550,6 +650,11 @@ TEST_F(GoldenCompare, SaysThatSizesDifferAndRefusesWhatItCannotRead) {
   const ProgramResult result = Compare();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("size       DIFFERS  expected 64x64 px, found 64x8 px"));
+  std::fill(image_.rgba.begin(), image_.rgba.end(), std::uint8_t{0});
+  render::WritePng(one_, image_);
+  image_.rgba[0] = 255;
+  render::WritePng(other_, image_);
+  ExpectRefusal(Golden({"compare", one_, other_}), "wholly transparent");
   std::ofstream(other_) << "no picture";
   ExpectRefusal(Golden({"compare", one_, other_}), "other.png");
   ExpectRefusal(Golden({"compare", one_}), "other");

@@ -13,8 +13,8 @@ namespace kinescope::app {
 namespace {
 
 constexpr std::array<const char*, 15> kKindNames = {
-    "picture", "fault",  "class", "missing", "new",   "text",      "input", "load",
-    "floor",   "camera", "moved", "visible", "light", "structure", "pixels"};
+    "picture", "fault", "class", "camera",  "missing", "new",       "text",  "input",
+    "load",    "floor", "moved", "visible", "light",   "structure", "pixels"};
 
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding

@@ -14,13 +14,13 @@ enum class FindingKind {
   kPicture,  // the accepted picture is not the one of golden.lock, or of another size
   kFault,    // the new picture contradicts what it was drawn from, or shows nothing
   kClass,    // of a load
+  kCamera,   // moves everything else
   kMissing,
   kNew,
   kText,
   kInput,  // a recording or another file
   kLoad,   // ratio
   kFloor,
-  kCamera,
   kMoved,
   kVisible,  // more or less of it
   kLight,

@@ -98,7 +98,7 @@ class Accepting {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
       const bool is_alike = accepted.environment.count("browser") ==
                             drawn.now->environment.count("browser");  // scenes or pages
-      if (!is_alike || changes.environment.empty()) continue;
+      if (!is_alike || accepted.environment.empty() || changes.environment.empty()) continue;
       throw std::runtime_error(
           fmt::format("was drawn in another environment than {} ({}); draw it there, or take it "
                       "with --other_environment",

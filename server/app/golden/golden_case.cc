@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/system/errors.h"
+#include "core/system/sha256.h"
 #include "render/multi_view.h"
 #include "server/app/golden/golden_page.h"
 #include "server/options/option_json.h"
@@ -125,19 +126,17 @@ void CheckClip(const GoldenCase& golden_case, const fs::path& yaml) {
   }
 }
 
-PictureFacts FactsOf(const RenderRequest& request,
-                     const std::vector<render::SphereInPicture>& spheres,
-                     render::Renderer& renderer) {
+void AddFacts(const RenderRequest& request, render::Renderer& renderer, GoldenDrawing& drawing) {
   const render::PictureSpec& spec = request.spec;
   const render::PictureContents contents =
       renderer.Contents(request.state, request.camera, request.spec);
-  PictureFacts facts;
-  facts.objects = ObjectFactsOf(contents, spheres);
+  PictureFacts& facts = drawing.facts;
+  facts.objects = ObjectFactsOf(contents, drawing.spheres);
   facts.texts = TextFactsOf(contents);
   facts.has_floor = spec.look.floor;
   if (spec.panes.empty()) facts.cameras.push_back({"", request.camera});
   for (const render::Pane& pane : spec.panes) facts.cameras.push_back({pane.name, pane.camera});
-  return facts;
+  drawing.places = ObjectPlacesOf(contents);
 }
 
 GoldenDrawing DrawOne(const GoldenCase& golden_case, const RenderRequest& request,
@@ -145,7 +144,7 @@ GoldenDrawing DrawOne(const GoldenCase& golden_case, const RenderRequest& reques
   GoldenDrawing drawing;
   drawing.image = renderer.Render(request.state, request.camera, request.spec);
   drawing.spheres = SpheresOf(request);
-  drawing.facts = FactsOf(request, drawing.spheres, renderer);
+  AddFacts(request, renderer, drawing);
   if (request.spec.overlays && request.spec.parts.frame_code &&
       *golden_case.state != Liveness::kNoData) {
     drawing.frame_code = {request.state.counter, request.state.time_code_millis};
@@ -230,7 +229,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   golden_case.view.title = golden_case.name;
   options::OptionList list;
   golden_case.List(list);
-  options::YamlOptions(yaml.string()).SetAll(list);
+  options::YamlOptions(yaml.string()).SetAll(list, "`kinescope golden keys`");
   list.CheckEffects();
   for (const std::string& warning : list.warnings()) spdlog::warn(warning);
   for (const options::Option& option : list) {
@@ -262,6 +261,10 @@ std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
   if (!golden_case.source->empty()) {
     const SourceIdentity source = IdentityOf(*golden_case.source);
     inputs.push_back({"source", source.name, source.digest ? source.digest->sha256 : ""});
+  }
+  if (!golden_case.page_file.empty()) {
+    inputs.push_back({"page", golden_case.page_file.filename(),
+                      DigestOf(golden_case.page_file).sha256});
   }
   GoldenCase copy = golden_case;  // a list refers to values that can be set
   options::OptionList list;

@@ -46,6 +46,9 @@ int ListAll(const CaseListOptions& options) {
     Print("{:<24} {:<13}{}{}\n", found.name, is_accepted ? "accepted" : "not accepted",
           found.read ? "" : "NOT READABLE: ", why);
   }
+  for (const auto& file : suite.unread) {
+    if (!*options.json) Print("{:<24} is not read: a case ends in .yaml\n", file.string());
+  }
   for (const auto& orphan : suite.orphans) {
     if (*options.json) continue;
     Print("{:<24} belongs to no case\n", orphan.string());

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/system/json_text.h"
+#include "server/app/golden/golden_page.h"
 
 namespace kinescope::app {
 namespace {
@@ -63,15 +64,21 @@ std::vector<std::string> InputDifferences(const std::vector<InputFact>& then,
 
 }  // namespace
 
+bool IsForeignPage(const AcceptedCase& of_case) {
+  const auto page = of_case.options.find("page");
+  return page != of_case.options.end() && !(page->second.is_string() && IsDashboard(page->second));
+}
+
 GoldenChanges ChangesBetween(const AcceptedCase& accepted, const AcceptedCase& now) {
   return {Differences(accepted.options, now.options), InputDifferences(accepted.inputs, now.inputs),
-          Differences(accepted.environment, now.environment)};
+          Differences(accepted.environment, now.environment), IsForeignPage(now)};
 }
 
 std::string CauseOf(const GoldenChanges& changes) {
   if (!changes.options.empty()) return "case";
   if (!changes.inputs.empty()) return "recording";
-  return changes.environment.empty() ? "program" : "environment";
+  if (!changes.environment.empty()) return "environment";
+  return changes.is_page ? "page" : "program";
 }
 
 std::string CauseText(const GoldenChanges& changes) {
@@ -87,8 +94,12 @@ std::string CauseText(const GoldenChanges& changes) {
   }
   if (cause == "environment") {
     return fmt::format(
-        "It was drawn in another environment ({}); the program may have changed, too.",
-        fmt::join(changes.environment, "; "));
+        "It was drawn in another environment ({}); the {} may have changed, too.",
+        fmt::join(changes.environment, "; "), changes.is_page ? "page" : "program");
+  }
+  if (cause == "page") {
+    return "The page has changed: case, browser and the page's own file are those of the accepted "
+           "picture, so it is what the page loads or computes.";
   }
   return "The program has changed it: case, inputs and environment are those of the accepted "
          "picture.";

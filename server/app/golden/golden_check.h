@@ -36,8 +36,4 @@ std::filesystem::path DifferenceOf(const std::filesystem::path& out, const std::
 /// Accepted, new and difference side by side, with words.
 std::filesystem::path CompositeOf(const std::filesystem::path& out, const std::string& name);
 
-/// All that golden.lock keeps of a drawing, but for the hash of its file.
-AcceptedCase Describe(const GoldenCase& golden_case, const GoldenDrawing& drawing,
-                      const std::map<std::string, std::string>& environment);
-
 }  // namespace kinescope::app

@@ -4,6 +4,7 @@
 
 #include <future>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,13 @@ json LightOf(const PictureDifference& difference) {
   return light;
 }
 
+bool IsInvisible(const render::Image& image) {
+  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) {
+    if (image.rgba[alpha] != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 PictureVerdict ComparePictures(const std::filesystem::path& one, const std::filesystem::path& other,
@@ -85,6 +93,11 @@ PictureVerdict ComparePictures(const std::filesystem::path& one, const std::file
   const render::Image before = render::ReadPng(one), after = read.get();
   PictureVerdict verdict;
   verdict.difference = render::FindDifference(before, after);
+  if (!verdict.difference.is_byte_equal && IsInvisible(before) && IsInvisible(after)) {
+    throw std::runtime_error(
+        fmt::format("'{}' and '{}' are wholly transparent, so there is nothing to compare",
+                    one.string(), other.string()));
+  }
   verdict.is_same = render::IsSameToTheEye(verdict.difference);
   verdict.headline = HeadlineOf(verdict.difference);
   if (!verdict.is_same && !heat_map.empty()) {
@@ -101,6 +114,11 @@ std::vector<std::string> LinesOf(const PictureVerdict& verdict) {
                                 layer.passes ? "same" : "DIFFERS", layer.text));
   }
   return lines;
+}
+
+json NumbersOf(const std::string& layer, const PictureDifference& difference) {
+  if (layer == "structure") return StructureOf(difference);
+  return layer == "light" ? LightOf(difference) : PixelsOf(difference);
 }
 
 json ToJson(const PictureVerdict& verdict) {

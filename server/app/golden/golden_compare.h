@@ -26,6 +26,9 @@ PictureVerdict ComparePictures(const std::filesystem::path& one, const std::file
 /// its limit.
 std::vector<std::string> LinesOf(const PictureVerdict& verdict);
 
+/// What a layer of render::JudgeLayers() found, as numbers. @pre both pictures have one size
+nlohmann::json NumbersOf(const std::string& layer, const render::PictureDifference& difference);
+
 /// As docs/json.md describes it.
 nlohmann::json ToJson(const PictureVerdict& verdict);
 

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/system/utf8.h"
+#include "server/app/golden/golden_report_text.h"
 #include "server/app/html.h"
 
 namespace kinescope::app {
@@ -14,8 +17,8 @@ constexpr std::size_t kMostAnnotations = 10, kMostAnnotationLines = 8;
 
 std::vector<const CaseVerdict*> Failures(const std::vector<CaseVerdict>& verdicts) {
   std::vector<const CaseVerdict*> failures;
-  for (const CaseVerdict& verdict : verdicts) {
-    if (verdict.outcome != Outcome::kSame) failures.push_back(&verdict);
+  for (const CaseVerdict* verdict : InOrder(verdicts)) {
+    if (verdict->outcome != Outcome::kSame) failures.push_back(verdict);
   }
   return failures;
 }
@@ -49,7 +52,8 @@ std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& 
   }
   if (verdict.now) {
     lines.push_back(CommandText(
-        fmt::format("Accept: kinescope golden accept {} {}", out.string(), verdict.name)));
+        fmt::format("Accept: kinescope golden accept {} {}", ShellWord(out.string()),
+                    ShellWord(verdict.name))));
   }
   return fmt::format(
       "::error file={},line={},title={}::{}\n", CommandProperty(verdict.file.string()),
@@ -58,12 +62,26 @@ std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& 
       fmt::join(lines, "%0A"));
 }
 
+// "3 pictures were compared in another environment (backend: was osmesa, is egl)"; "": none.
+std::string Weakness(const std::vector<CaseVerdict>& verdicts) {
+  const auto count = std::count_if(verdicts.begin(), verdicts.end(), IsWeaker);
+  if (count == 0) return "";
+  const auto first = std::find_if(verdicts.begin(), verdicts.end(), IsWeaker);
+  return fmt::format("weaker check: {} compared in another environment than that of the accepted "
+                     "{} ({})",
+                     count == 1 ? "1 picture was" : fmt::format("{} pictures were", count),
+                     count == 1 ? "one" : "ones", fmt::join(first->changes.environment, "; "));
+}
+
 }  // namespace
 
 std::string ToMarkdown(const std::vector<CaseVerdict>& verdicts, const std::filesystem::path& out) {
   const OutcomeCounts counts = CountsOf(verdicts);
   std::string text =
       fmt::format("## {} {}\n\n", counts.ExitCode() == 0 ? "✓" : "✕", EscapeHtml(Headline(counts)));
+  if (const std::string weakness = Weakness(verdicts); !weakness.empty()) {
+    text += EscapeHtml(weakness) + "\n\n";
+  }
   if (counts.ExitCode() == 0) return text;
   text += fmt::format(
       "{} passed, exit code {}. Pictures and commands: `{}/report.html` of this run (artifact).\n\n"
@@ -106,6 +124,9 @@ std::string ToAnnotations(const std::vector<CaseVerdict>& verdicts,
   }
   for (std::size_t i = 0; i < failures.size() && i < room; ++i) {
     text += Annotation(*failures[i], out);
+  }
+  if (const std::string weakness = Weakness(verdicts); !weakness.empty()) {
+    text += fmt::format("::warning title=golden::{}\n", CommandText(weakness));
   }
   return text;
 }

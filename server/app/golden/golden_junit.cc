@@ -6,6 +6,7 @@
 
 #include "core/system/utf8.h"
 #include "server/app/golden/golden_check.h"
+#include "server/app/golden/golden_report_text.h"
 #include "server/app/html.h"
 
 namespace kinescope::app {
@@ -22,8 +23,11 @@ std::string Lines(const std::vector<std::string>& problems) {
 
 // GitLab shows one picture, by its path from the project; Jenkins wants a path from the root.
 std::string PathForServer(const std::filesystem::path& path) {
-  return std::getenv("GITLAB_CI") != nullptr ? path.string()
-                                             : std::filesystem::absolute(path).string();
+  const std::filesystem::path absolute = std::filesystem::absolute(path);
+  if (std::getenv("GITLAB_CI") == nullptr) return absolute.string();
+  const char* const project = std::getenv("CI_PROJECT_DIR");
+  return absolute.lexically_proximate(project != nullptr ? project : std::filesystem::current_path())
+      .string();
 }
 
 std::string CaseToXml(const CaseVerdict& verdict, const std::string& suite,
@@ -31,8 +35,12 @@ std::string CaseToXml(const CaseVerdict& verdict, const std::string& suite,
   std::string xml =
       fmt::format("    <testcase classname=\"golden {}\" name=\"{}\" file=\"{}\" time=\"{:.3f}\"",
                   suite, Xml(verdict.name), Xml(verdict.file.string()), verdict.secs);
-  if (verdict.outcome == Outcome::kSame) return xml + "/>\n";
   const std::vector<std::string> lines = Explain(verdict);
+  if (verdict.outcome == Outcome::kSame && lines.empty()) return xml + "/>\n";
+  if (verdict.outcome == Outcome::kSame) {
+    return xml +
+           fmt::format(">\n      <system-out>{}</system-out>\n    </testcase>\n", Lines(lines));
+  }
   const char* const kind = verdict.outcome == Outcome::kDiffers ? "failure" : "error";
   xml += fmt::format(">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n", kind,
                      Name(verdict.outcome), Xml(lines.empty() ? "" : lines.front()), Lines(lines));
@@ -54,10 +62,10 @@ std::string ToJunit(const std::vector<CaseVerdict>& verdicts, const std::filesys
   OutcomeCounts counts;
   double secs = 0;
   std::string cases;
-  for (const CaseVerdict& verdict : verdicts) {
-    counts.Add(verdict.outcome);
-    secs += verdict.secs;
-    cases += CaseToXml(verdict, suite, out);
+  for (const CaseVerdict* verdict : InOrder(verdicts)) {
+    counts.Add(verdict->outcome);
+    secs += verdict->secs;
+    cases += CaseToXml(*verdict, suite, out);
   }
   const std::string numbers =
       fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\"", verdicts.size(),

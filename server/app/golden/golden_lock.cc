@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 #include "core/picture_limits.h"
@@ -96,8 +97,18 @@ GoldenLock ReadLock(const fs::path& path) {
   }
 }
 
+// JSON keeps the last of two members of one name, which a merge may have left behind.
 GoldenLock ParseLock(const std::string& text) {
-  const json document = json::parse(text);
+  constexpr int kDepthOfCases = 2;
+  std::set<std::string> names;
+  const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (event != json::parse_event_t::key || depth != kDepthOfCases) return true;
+    if (names.insert(parsed.get<std::string>()).second) return true;
+    throw std::runtime_error(fmt::format("{} stands there twice, as after a merge; remove the one "
+                                         "that is not accepted",
+                                         JsonText(parsed)));
+  };
+  const json document = json::parse(text, see);
   if (document.at("schema") != kLockSchema) {
     throw std::runtime_error(fmt::format("schema {}; this version reads {}",
                                          JsonText(document.at("schema")), kLockSchema));

@@ -11,6 +11,7 @@
 #include "server/app/print.h"
 #include "server/options/option_json.h"
 #include "server/options/yaml_file.h"
+#include "server/source/open_source.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
@@ -63,7 +64,8 @@ fs::path WriteNewCase(const fs::path& folder, const std::string& name,
   fs::create_directories(folder);
   render::WriteNewFile(path, options::ToYaml(lines));
   try {
-    LoadGoldenCase(path);
+    const GoldenCase written = LoadGoldenCase(path);
+    if (!written.source->empty()) OpenSource(*written.source);
   } catch (...) {
     std::error_code ignored;
     fs::remove(path, ignored);

@@ -24,10 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsDashboard(const std::string& page) {
-  return page == kDashboard || StartsWith(page, std::string(kDashboard) + "?");
-}
-
 bool IsAddress(const std::string& page) {
   constexpr std::array<const char*, 3> kSchemes = {"http://", "https://", "file://"};
   return std::any_of(kSchemes.begin(), kSchemes.end(),
@@ -124,6 +120,10 @@ void AddTo(PictureFacts& facts, const PageElement& element) {
 
 }  // namespace
 
+bool IsDashboard(const std::string& page) {
+  return page == kDashboard || StartsWith(page, std::string(kDashboard) + "?");
+}
+
 bool IsPageFile(const std::string& page) { return !IsDashboard(page) && !IsAddress(page); }
 
 void ResolvePage(GoldenCase& golden_case, const fs::path& yaml) {
@@ -147,6 +147,7 @@ void ResolvePage(GoldenCase& golden_case, const fs::path& yaml) {
                     "address (http://, https:// or file://), or {} with a source",
                     yaml.string(), page, kDashboard));
   }
+  golden_case.page_file = file;
   golden_case.page = "file://" + PercentEncoded(file.string());
 }
 

@@ -12,6 +12,9 @@ namespace kinescope::app {
 /// The page of the dashboard, in the key `page`; an address follows it as in "dashboard?view=wall".
 inline constexpr char kDashboard[] = "dashboard";
 
+/// Whether the key `page` names our dashboard.
+bool IsDashboard(const std::string& page);
+
 /// Whether the key `page` names a file: neither an address nor the dashboard.
 bool IsPageFile(const std::string& page);
 

@@ -1,6 +1,8 @@
 #include "server/app/golden/golden_stress.h"
 
 #include <fmt/format.h>
+#include <locale.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -31,28 +33,65 @@ constexpr std::chrono::minutes kMostPerCase(2);
 struct Circumstance {
   std::string name;
   std::vector<std::string> before;  // words before the program
+  std::string why_not;              // not empty: it cannot be tried on this machine
 };
+
+std::vector<std::string> With(std::vector<std::string> words) {
+  words.insert(words.begin(), "/usr/bin/env");
+  return words;
+}
+
+bool IsInstalled(const char* locale) {
+  const locale_t found = ::newlocale(LC_ALL_MASK, locale, nullptr);
+  if (found != nullptr) ::freelocale(found);
+  return found != nullptr;
+}
+
+// Few machines have the locale, but Debian's package `locales` has its sources.
+Circumstance DecimalCommas(const fs::path& scratch) {
+  constexpr char kLocale[] = "de_DE.UTF-8";
+  Circumstance commas = {"locale with decimal commas",
+                         With({std::string("LC_ALL=") + kLocale, std::string("LANG=") + kLocale}),
+                         ""};
+  if (IsInstalled(kLocale)) return commas;
+  const fs::path locales = scratch / "locales";
+  fs::create_directories(locales);
+  const ChildResult made =
+      RunChild(With({"localedef", "--no-archive", "--inputfile=de_DE", "--charmap=UTF-8",
+                     (locales / kLocale).string()}),
+               std::chrono::minutes(1));
+  commas.before.push_back("LOCPATH=" + locales.string());
+  if (made.exit_code != 0 || made.signal != 0) {
+    commas.why_not = std::string(kLocale) + " is not installed (apt-get install locales)";
+  }
+  return commas;
+}
+
+// A folder in which this user cannot write; the superuser can in all that permissions protect.
+fs::path ReadOnlyHome(const fs::path& scratch) {
+  if (::geteuid() == 0) return "/proc";
+  fs::path home = scratch / "home";
+  fs::create_directories(home);
+  fs::permissions(home, fs::perms::owner_read | fs::perms::owner_exec);
+  return home;
+}
 
 // By coreutils, which every Debian has.
 std::vector<Circumstance> Circumstances(const fs::path& scratch) {
-  const fs::path home = scratch / "home";
-  fs::create_directories(home);
-  fs::permissions(home, fs::perms::owner_read | fs::perms::owner_exec);
-  const auto with = [](std::vector<std::string> words) {
-    words.insert(words.begin(), "/usr/bin/env");
-    return words;
-  };
+  const fs::path home = ReadOnlyHome(scratch);
   std::vector<Circumstance> all;
   for (const char* threads : {"0", "1", "2", "4", "8"}) {
     all.push_back({fmt::format("{} filling threads", threads),
-                   with({std::string("LP_NUM_THREADS=") + threads})});
+                   With({std::string("LP_NUM_THREADS=") + threads}),
+                   ""});
   }
-  all.push_back({"locale with decimal commas", with({"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8"})});
-  all.push_back({"time zone Asia/Kathmandu", with({"TZ=Asia/Kathmandu"})});
-  all.push_back({"working folder /", with({"-C", "/"})});
+  all.push_back(DecimalCommas(scratch));
+  all.push_back({"time zone Asia/Kathmandu", With({"TZ=Asia/Kathmandu"}), ""});
+  all.push_back({"working folder /", With({"-C", "/"}), ""});
   all.push_back({"read-only home",
-                 with({"HOME=" + home.string(), "XDG_CACHE_HOME=" + (home / "cache").string()})});
-  all.push_back({"lowest priority", {"/usr/bin/nice", "-n", "19"}});
+                 With({"HOME=" + home.string(), "XDG_CACHE_HOME=" + (home / "cache").string()}),
+                 ""});
+  all.push_back({"lowest priority", {"/usr/bin/nice", "-n", "19"}, ""});
   return all;
 }
 
@@ -99,7 +138,11 @@ class Stress {
     for (int round = 0; round < settings_.rounds; ++round) {
       for (const Circumstance& each : circumstances) {
         if (StopRequested()) throw std::runtime_error("interrupted");
-        CompareWith(each);
+        if (each.why_not.empty()) {
+          CompareWith(each);
+        } else {
+          Print("{:<28} not tried: {}\n", each.name, each.why_not);
+        }
       }
     }
     return exit_code_;

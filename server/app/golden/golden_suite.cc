@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <system_error>
 
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kCase[] = ".yaml", kPicture[] = ".png";
+constexpr char kCase[] = ".yaml", kAlmostCase[] = ".yml", kPicture[] = ".png";
 constexpr char kObjects[] = ".objects.json";  // of earlier versions
 
 // "bend" of "bend.objects.json"; nullopt if the name has another ending.
@@ -35,6 +36,22 @@ FoundCase Read(const fs::path& yaml) {
     found.error = error.what();
   }
   return found;
+}
+
+std::string Lower(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
+
+// On some computers both have the same picture.
+void RefuseTwinsOf(FoundCase& found, const std::set<std::string>& known, const fs::path& folder) {
+  for (const std::string& other : known) {
+    if (other == found.name || Lower(other) != Lower(found.name)) continue;
+    found.read.reset();
+    found.error = fmt::format("{}: only upper and lower case tell it from {}; rename one of them",
+                              (folder / (found.name + kCase)).string(), other + kCase);
+  }
 }
 
 std::string NotThere(const fs::path& folder, const std::string& name,
@@ -72,10 +89,11 @@ std::vector<std::string> GoldenSuite::AcceptedPicturesOf(const FoundCase& found)
 
 GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::string>& names) {
   std::set<std::string> known;
-  std::vector<fs::path> accepted;
+  std::vector<fs::path> accepted, unread;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (const auto name = NameBefore(kCase, entry.path())) known.insert(*name);
+    if (NameBefore(kAlmostCase, entry.path())) unread.push_back(entry.path().filename());
     if (NameBefore(kPicture, entry.path()) || NameBefore(kObjects, entry.path())) {
       accepted.push_back(entry.path().filename());
     }
@@ -97,8 +115,13 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
     chosen.insert(case_name);
   }
   if (names.empty()) chosen = known;
-  for (const std::string& name : chosen) suite.cases.push_back(Read(folder / (name + kCase)));
+  for (const std::string& name : chosen) {
+    suite.cases.push_back(Read(folder / (name + kCase)));
+    RefuseTwinsOf(suite.cases.back(), known, folder);
+  }
   if (!names.empty()) return suite;  // of the others nothing is known
+  std::sort(unread.begin(), unread.end());
+  suite.unread = std::move(unread);
   for (const auto& [name, ignored] : suite.lock) {
     if (known.count(CaseNameOf(name)) == 0) suite.unknown_locks.push_back(name);
   }

@@ -22,6 +22,7 @@ struct GoldenSuite {
   std::filesystem::path folder;
   std::vector<FoundCase> cases;                // by name
   std::vector<std::filesystem::path> orphans;  // names of files; by name
+  std::vector<std::filesystem::path> unread;   // names of files that look like cases: *.yml
   GoldenLock lock;
   std::vector<std::string> unknown_locks;  // names in `lock` that no case has
 

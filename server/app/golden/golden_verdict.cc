@@ -34,6 +34,10 @@ std::string FaultOf(const CaseVerdict& verdict) {
   return "";
 }
 
+bool IsWeaker(const CaseVerdict& verdict) {
+  return verdict.outcome == Outcome::kSame && !verdict.changes.environment.empty();
+}
+
 bool HasCause(const CaseVerdict& verdict) {
   return verdict.now && !verdict.accepted_pixels.empty() &&
          std::any_of(

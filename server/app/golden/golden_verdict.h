@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct GoldenLayer {
   std::string name;   // "objects", "structure", "light", "pixels"
   std::string found;  // with its limit
   bool passes = true;
+  nlohmann::json numbers = nullptr;  // what was found, as docs/json.md describes it
 };
 
 struct CaseVerdict {
@@ -55,6 +57,9 @@ struct CaseVerdict {
 
 /// Why the new picture must not be accepted, though it was drawn; "": it may be.
 std::string FaultOf(const CaseVerdict& verdict);
+
+/// Whether it is the same only in another environment than that of the accepted picture.
+bool IsWeaker(const CaseVerdict& verdict);
 
 /// Whether CauseOf() explains the difference: it is of what was drawn, not only of accepted files.
 bool HasCause(const CaseVerdict& verdict);

@@ -105,7 +105,10 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
   line["layers"] = Json::array();
   for (const GoldenLayer& layer : verdict.layers) {
     line["layers"].push_back(
-        {{"name", layer.name}, {"found", layer.found}, {"passes", layer.passes}});
+        {{"name", layer.name},
+         {"found", layer.found},
+         {"passes", layer.passes},
+         {"numbers", layer.numbers}});
   }
   line["cause"] = HasCause(verdict) ? Json(CauseOf(verdict.changes)) : Json(nullptr);
   line["changes"] = {{"case", verdict.changes.options},
@@ -140,7 +143,8 @@ CaseVerdict VerdictFrom(const json& line) {
     verdict.findings.push_back(FindingFrom(finding));
   }
   for (const json& layer : line.at("layers")) {
-    verdict.layers.push_back({layer.at("name"), layer.at("found"), layer.at("passes")});
+    verdict.layers.push_back({layer.at("name"), layer.at("found"), layer.at("passes"),
+                              layer.value("numbers", json())});
   }
   const json& changes = line.at("changes");
   changes.at("case").get_to(verdict.changes.options);
@@ -151,6 +155,7 @@ CaseVerdict VerdictFrom(const json& line) {
   for (const json& mask : line.at("masks")) verdict.masks.push_back(BoxFrom(mask));
   verdict.accepted_pixels = line.at("accepted_pixels");
   if (!line.at("now").is_null()) verdict.now = AcceptedFrom(line.at("now"));
+  verdict.changes.is_page = verdict.now && IsForeignPage(*verdict.now);
   return verdict;
 }
 

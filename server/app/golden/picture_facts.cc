@@ -128,6 +128,30 @@ std::vector<ObjectFact> ObjectFactsOf(const render::PictureContents& contents,
   return facts;
 }
 
+std::vector<ObjectPlace> ObjectPlacesOf(const render::PictureContents& contents) {
+  std::vector<ObjectPlace> places;
+  for (const render::SeenObject& seen : contents.objects) {
+    places.push_back({NameOf(InView(seen.view, seen.name), seen.character), seen.box});
+  }
+  return places;
+}
+
+std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPlace> places) {
+  constexpr std::size_t kMostNames = 3;
+  const auto area = [](const ObjectPlace& place) {
+    return std::int64_t{place.box.width} * place.box.height;
+  };
+  std::stable_sort(places.begin(), places.end(), [&](const ObjectPlace& a, const ObjectPlace& b) {
+    return area(a) < area(b);
+  });
+  std::vector<std::string> names;
+  for (const ObjectPlace& place : places) {
+    if (names.size() == kMostNames) break;
+    if (!render::IsEmpty(render::Intersection(place.box, box))) names.push_back(place.name);
+  }
+  return names;
+}
+
 std::vector<TextFact> TextFactsOf(const render::PictureContents& contents) {
   std::vector<TextFact> facts;
   for (const render::PaintedText& text : contents.texts) {

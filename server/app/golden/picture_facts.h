@@ -12,6 +12,7 @@
 #include "render/camera/camera.h"
 #include "render/camera/spheres.h"
 #include "render/contents.h"
+#include "render/image/tile.h"
 
 namespace kinescope::app {
 
@@ -46,6 +47,18 @@ struct PictureFacts {
 std::vector<ObjectFact> ObjectFactsOf(const render::PictureContents& contents,
                                       const std::vector<render::SphereInPicture>& loads);
 std::vector<TextFact> TextFactsOf(const render::PictureContents& contents);
+
+/// Around which pixels an object of the picture is seen, px.
+struct ObjectPlace {
+  std::string name;  // as in ObjectFact
+  render::Tile box;
+};
+
+std::vector<ObjectPlace> ObjectPlacesOf(const render::PictureContents& contents);
+
+/// The names of those that lie in `box`, the smallest first, as what is large is behind everything;
+/// three at most.
+std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPlace> places);
 
 /// One line per object, text and camera, so that a change is readable beside the change of a
 /// program. Rounded to 0.1 px, 0.001 of a ratio, 0.1 mm.

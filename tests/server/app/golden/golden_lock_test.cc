@@ -68,6 +68,8 @@ TEST(GoldenLock, NamesItselfWhereItIsDamaged) {
   EXPECT_THAT(complaint("{\"schema\": 1,\n<<<<<<< ours"), HasSubstr("golden.lock: "));
   EXPECT_THAT(complaint("{\"schema\": 1, \"cases\": {\"a\": {}}}"), HasSubstr("golden.lock: "));
   EXPECT_THAT(complaint("{\"schema\": 7, \"cases\": {}}"), HasSubstr("schema 7"));
+  EXPECT_THAT(complaint("{\"schema\": 1, \"cases\": {\"a\": {}, \"b\": {}, \"a\": {}}}"),
+              HasSubstr("\"a\" stands there twice"));
 }
 
 TEST(GoldenChanges, SayWhatDecidedAnotherPicture) {
