@@ -408,6 +408,24 @@ TEST_F(GoldenCheck, SaysUnderWhichCircumstancesNothingIsDrawn) {
   EXPECT_THAT(result.out, HasSubstr("late: could not be drawn"));
 }
 
+TEST_F(GoldenCheck, FindsPicturesInAnotherFolder) {
+  const fs::path elsewhere = folder_ / "elsewhere";
+  ASSERT_EQ(Golden({"update", case_, "--pictures", elsewhere}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(elsewhere / "bend.png"));
+  EXPECT_FALSE(fs::exists(case_ / "bend.png"));
+  EXPECT_EQ(Check({"--strict"}).exit_code, 0);
+  AddToCase("hide: cop");
+  EXPECT_THAT(Check().out, HasSubstr("centre of pressure: is missing"));
+  EXPECT_EQ(Golden({"accept", case_ / "out"}).exit_code, 0);
+  EXPECT_EQ(Check({"--strict"}).exit_code, 0);
+  fs::copy(elsewhere / "bend.png", elsewhere / "former.png");
+  fs::copy(elsewhere / "bend.png", case_ / "bend.png");
+  const ProgramResult orphans = Check();
+  EXPECT_EQ(orphans.exit_code, 1);
+  EXPECT_THAT(orphans.out, AllOf(HasSubstr("elsewhere/former.png"), HasSubstr("bend.png "),
+                                 HasSubstr("2 of 3 pictures differ")));
+}
+
 TEST_F(GoldenCheck, SaysWhatMakesItWeaker) {
   ReplaceInLock("\"scene_library\":\"VTK", "\"scene_library\":\"NTK");
   const ProgramResult weaker = Check();

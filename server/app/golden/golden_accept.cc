@@ -149,7 +149,7 @@ int AcceptRun(const AcceptSettings& settings) {
       Print("{:<24} NOT ACCEPTED\n  {}\n", each->name, error.what());
     }
   }
-  if (taken > 0) WriteLock(suite.lock_file(), suite.lock);
+  if (taken > 0) suite.WriteLockFile();
   return taken == chosen.size() ? 0 : 2;
 }
 

@@ -23,11 +23,16 @@ int AcceptAll(const AcceptOptions& options) {
 
 struct UpdateOptions {
   GoldenCaseOptions cases;
+  options::Text pictures;
   GoldenJobOptions jobs;
 };
 
 int UpdateAll(const UpdateOptions& options) {
   RefuseToAcceptInCi();
+  if (!options.pictures->empty()) {
+    GoldenSuite all = FindGoldenSuite(*options.cases.folder, {});
+    MovePictures(all, *options.pictures);
+  }
   const GoldenSuite suite = options.cases.Find();
   const ScratchFolder drawn;
   CheckSettings settings;
@@ -65,6 +70,9 @@ Command GoldenUpdateCommand() {
   update.about = "Draws every case and accepts it as it is; writes only what has changed";
   values->cases.List(update.options);
   values->jobs.List(update.options);
+  update.options("pictures", values->pictures,
+                 "folder in which the accepted pictures lie from now on, such as one in Git LFS; "
+                 "golden.lock names it to the other commands. Default: beside the cases");
   update.positionals = {"folder", "case"};
   update.footer = "Exit code: 0 all are accepted, 2 a case is not. Refused where CI is set.";
   update.run = [values](options::OptionList&) { return UpdateAll(*values); };

@@ -134,6 +134,7 @@ void AddFacts(const RenderRequest& request, render::Renderer& renderer, GoldenDr
   facts.objects = ObjectFactsOf(contents, drawing.spheres);
   facts.texts = TextFactsOf(contents);
   facts.has_floor = spec.look.floor;
+  if (facts.has_floor) facts.floor_z_m = request.state.floor_z;
   if (spec.panes.empty()) facts.cameras.push_back({"", request.camera});
   for (const render::Pane& pane : spec.panes) facts.cameras.push_back({pane.name, pane.camera});
   drawing.places = ObjectPlacesOf(contents);

@@ -73,10 +73,11 @@ class GithubOutput {
   std::string token_;
 };
 
-void WriteResults(const CheckOptions& options, const std::vector<CaseVerdict>& verdicts) {
+void WriteResults(const CheckOptions& options, const GoldenSuite& suite,
+                  const std::vector<CaseVerdict>& verdicts) {
   const std::filesystem::path out = *options.out;
   WriteRun(out, *options.cases.folder, verdicts);
-  render::WriteNewFile(out / "report.html", GoldenReport(verdicts, {*options.cases.folder, out}));
+  render::WriteNewFile(out / "report.html", GoldenReport(verdicts, {*options.cases.folder, suite.folder / suite.pictures, out}));
   if (!options.junit->empty()) {
     render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, out));
   }
@@ -105,7 +106,7 @@ int CheckAll(const CheckOptions& options) {
     }
   });
   const OutcomeCounts counts = CountsOf(verdicts);
-  WriteResults(options, verdicts);
+  WriteResults(options, suite, verdicts);
   if (!*options.json) PrintSummary(counts, options);
   github.End(verdicts, *options.out);
   return counts.ExitCode();

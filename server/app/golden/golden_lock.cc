@@ -86,11 +86,11 @@ AcceptedCase AcceptedFrom(const json& json) {
   return accepted;
 }
 
-GoldenLock ReadLock(const fs::path& path) {
+GoldenLock ReadLock(const fs::path& path, std::string* pictures) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
   try {
-    return ParseLock(ReadSmallFile(path));
+    return ParseLock(ReadSmallFile(path), pictures);
   } catch (const std::exception& error) {
     throw std::runtime_error(
         fmt::format("{}: {}; restore it from version control", path.string(), error.what()));
@@ -98,7 +98,7 @@ GoldenLock ReadLock(const fs::path& path) {
 }
 
 // JSON keeps the last of two members of one name, which a merge may have left behind.
-GoldenLock ParseLock(const std::string& text) {
+GoldenLock ParseLock(const std::string& text, std::string* pictures) {
   constexpr int kDepthOfCases = 2;
   std::set<std::string> names;
   const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
@@ -113,6 +113,7 @@ GoldenLock ParseLock(const std::string& text) {
     throw std::runtime_error(fmt::format("schema {}; this version reads {}",
                                          JsonText(document.at("schema")), kLockSchema));
   }
+  if (pictures != nullptr) *pictures = document.value("pictures", "");
   GoldenLock lock;
   for (const auto& [name, accepted] : document.at("cases").items()) {
     lock[name] = AcceptedFrom(accepted);
@@ -130,8 +131,10 @@ std::string ReadSmallFile(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void WriteLock(const fs::path& path, const GoldenLock& lock) {
-  std::string text = fmt::format("{{\"schema\": {},\n\"cases\": {{", kLockSchema);
+void WriteLock(const fs::path& path, const GoldenLock& lock, const std::string& pictures) {
+  std::string text = fmt::format("{{\"schema\": {},\n", kLockSchema);
+  if (!pictures.empty()) text += fmt::format("\"pictures\": {},\n", JsonText(json(pictures)));
+  text += "\"cases\": {";
   const char* separator = "\n";
   for (const auto& [name, accepted] : lock) {
     text += fmt::format("{}{}: {}", separator, JsonText(json(name)), ToJson(accepted));

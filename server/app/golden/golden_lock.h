@@ -50,14 +50,16 @@ std::string PixelsHash(const render::Image& image);
 std::map<std::string, std::string> EnvironmentOf(const render::RendererInfo& renderer);
 
 /// The content of `golden.lock`. @throws std::exception with the reason.
-GoldenLock ParseLock(const std::string& text);
+/// @param pictures  is set to the folder of the pictures, relative to that of the cases; "": there
+GoldenLock ParseLock(const std::string& text, std::string* pictures = nullptr);
 /// A file of JSON, of at most 256 MiB. @throws std::runtime_error with the reason alone.
 std::string ReadSmallFile(const std::filesystem::path& path);
 
 /// Empty if there is no such file. @throws std::runtime_error with file and reason.
-GoldenLock ReadLock(const std::filesystem::path& path);
+GoldenLock ReadLock(const std::filesystem::path& path, std::string* pictures = nullptr);
 /// @throws std::runtime_error with file and reason.
-void WriteLock(const std::filesystem::path& path, const GoldenLock& lock);
+void WriteLock(const std::filesystem::path& path, const GoldenLock& lock,
+               const std::string& pictures = "");
 
 std::string ToJson(const AcceptedCase& accepted);
 /// @throws nlohmann::json::exception if a member is missing or of another type.

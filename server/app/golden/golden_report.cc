@@ -245,7 +245,7 @@ class ReportWriter {
     const std::string n = std::to_string(number);
     const Picture before = verdict.accepted_pixels.empty()
                                ? Picture()
-                               : ReadPicture(settings_.folder / (verdict.name + ".png"), "b" + n);
+                               : ReadPicture(settings_.pictures / (verdict.name + ".png"), "b" + n);
     const Picture after = ReadPicture(NewPictureOf(settings_.out, verdict.name), "a" + n);
     const Picture difference = ReadPicture(DifferenceOf(settings_.out, verdict.name), "d" + n);
     const bool has_views = !before.id.empty() && !after.id.empty() && !difference.id.empty();

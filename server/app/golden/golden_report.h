@@ -20,7 +20,8 @@ struct ReviewedPage {
 };
 
 struct ReportSettings {
-  std::filesystem::path folder;                       // of the cases and their accepted pictures
+  std::filesystem::path folder;                       // of the cases
+  std::filesystem::path pictures;                     // folder of the accepted pictures
   std::filesystem::path out;                          // of the run
   std::string version = KINESCOPE_VERSION;            // of the program that has drawn
   std::optional<ReviewedPage> review = std::nullopt;  // nullopt: a file

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path AcceptedPicture(const GoldenSuite& suite, const CaseVerdict& verdict) {
-  return suite.folder / (verdict.name + ".png");
+  return suite.PictureOf(verdict.name);
 }
 
 // nullopt: there is none.
@@ -36,7 +36,7 @@ void WriteOrRemove(const fs::path& path, const std::optional<std::string>& conte
 void WriteLockOf(const GoldenSuite& suite, const fs::path& picture,
                  const std::optional<std::string>& content) {
   try {
-    WriteLock(suite.lock_file(), suite.lock);
+    suite.WriteLockFile();
   } catch (const std::exception&) {
     WriteOrRemove(picture, content);
     throw;
@@ -87,6 +87,7 @@ bool GoldenReview::IsAccepted(const GoldenSuite& suite, const CaseVerdict& verdi
 void GoldenReview::Refresh() {
   const GoldenSuite suite = SuiteFor(run_, settings_);
   folder_ = suite.folder;
+  pictures_ = suite.folder / suite.pictures;
   accepted_.clear();
   for (const CaseVerdict* each : cases_) {
     if (IsAccepted(suite, *each)) accepted_.insert(each->name);

@@ -30,7 +30,8 @@ class GoldenReview {
 
   const GoldenRun& run() const { return run_; }
   const std::filesystem::path& run_folder() const { return settings_.run; }
-  const std::filesystem::path& folder() const { return folder_; }  // of the cases
+  const std::filesystem::path& folder() const { return folder_; }      // of the cases
+  const std::filesystem::path& pictures() const { return pictures_; }  // that are accepted
 
   /// Those that can be decided: drawn and not the same. In the order of the run.
   const std::vector<const CaseVerdict*>& cases() const { return cases_; }
@@ -66,7 +67,7 @@ class GoldenReview {
 
   const AcceptSettings settings_;
   const GoldenRun run_;
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, pictures_;
   std::vector<const CaseVerdict*> cases_, others_;
   KeptDecisions kept_;
   std::set<std::string> accepted_;            // names, as Refresh() has seen them

@@ -32,6 +32,7 @@ ReportSettings PageSettings(const GoldenReview& review, const std::string& token
                             const std::string& nonce) {
   ReportSettings settings;
   settings.folder = review.folder();
+  settings.pictures = review.pictures();
   settings.out = review.run_folder();
   settings.version = review.run().version;
   settings.review = ReviewedPage{token, nonce};

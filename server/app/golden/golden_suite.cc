@@ -65,7 +65,7 @@ std::string NotThere(const fs::path& folder, const std::string& name,
 }  // namespace
 
 fs::path GoldenSuite::PictureOf(const std::string& picture) const {
-  return folder / (picture + kPicture);
+  return folder / pictures / (picture + kPicture);
 }
 
 fs::path GoldenSuite::CaseFileOf(const FoundCase& found) const {
@@ -73,6 +73,8 @@ fs::path GoldenSuite::CaseFileOf(const FoundCase& found) const {
 }
 
 fs::path GoldenSuite::lock_file() const { return folder / "golden.lock"; }
+
+void GoldenSuite::WriteLockFile() const { WriteLock(lock_file(), lock, pictures); }
 
 const AcceptedCase* GoldenSuite::AcceptedOf(const std::string& picture) const {
   const auto accepted = lock.find(picture);
@@ -107,7 +109,13 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   }
   GoldenSuite suite;
   suite.folder = folder;
-  suite.lock = ReadLock(suite.lock_file());
+  suite.lock = ReadLock(suite.lock_file(), &suite.pictures);
+  if (!suite.pictures.empty()) {
+    for (const auto& entry : fs::directory_iterator(folder / suite.pictures, error)) {
+      if (!NameBefore(kPicture, entry.path())) continue;
+      accepted.push_back(fs::path(suite.pictures) / entry.path().filename());
+    }
+  }
   std::set<std::string> chosen;
   for (const std::string& name : names) {
     const std::string case_name = CaseNameOf(name);
@@ -128,7 +136,8 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   std::sort(accepted.begin(), accepted.end());
   for (fs::path& file : accepted) {
     const auto name = NameBefore(kPicture, file);
-    const bool has_case = name && known.count(CaseNameOf(*name)) > 0 &&
+    const bool is_where_pictures_are = file.parent_path() == fs::path(suite.pictures);
+    const bool has_case = name && is_where_pictures_are && known.count(CaseNameOf(*name)) > 0 &&
                           (CaseNameOf(*name) == *name || suite.lock.count(*name) > 0);
     if (!has_case) suite.orphans.push_back(std::move(file));
   }

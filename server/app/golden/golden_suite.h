@@ -24,12 +24,15 @@ struct GoldenSuite {
   std::vector<std::filesystem::path> orphans;  // names of files; by name
   std::vector<std::filesystem::path> unread;   // names of files that look like cases: *.yml
   GoldenLock lock;
+  std::string pictures;  // folder of the accepted pictures, relative to `folder`; "": the same
   std::vector<std::string> unknown_locks;  // names in `lock` that no case has
 
   /// @param picture  its name (golden_frame.h)
   std::filesystem::path PictureOf(const std::string& picture) const;
   std::filesystem::path CaseFileOf(const FoundCase& found) const;
   std::filesystem::path lock_file() const;
+  /// @throws std::runtime_error with file and reason.
+  void WriteLockFile() const;
   /// What is accepted of a picture; nullptr: nothing yet.
   const AcceptedCase* AcceptedOf(const std::string& picture) const;
   /// The names of the pictures that are accepted of a case.

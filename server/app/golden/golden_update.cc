@@ -108,13 +108,29 @@ void RefuseToAcceptInCi() {
                    "machine, and commit what it writes");
 }
 
+void MovePictures(GoldenSuite& suite, const std::string& folder) {
+  std::error_code ignored;
+  GoldenSuite moved = suite;
+  moved.pictures = fs::proximate(fs::absolute(folder), fs::absolute(suite.folder)).string();
+  if (moved.pictures == ".") moved.pictures.clear();
+  fs::create_directories(suite.folder / moved.pictures);
+  for (const auto& [name, accepted] : suite.lock) {
+    const fs::path from = suite.PictureOf(name), to = moved.PictureOf(name);
+    if (from == to || !fs::exists(from, ignored)) continue;
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+    fs::remove(from);
+  }
+  suite = std::move(moved);
+  suite.WriteLockFile();
+}
+
 int UpdateSuite(GoldenSuite suite, const JobSettings& jobs, const fs::path& drawn) {
   const GoldenSuite found = suite;  // as the processes find it
   std::string before = ContentOf(suite.lock);
   const auto write = [&] {
     std::string now = ContentOf(suite.lock);
     if (now == before) return;
-    WriteLock(suite.lock_file(), suite.lock);
+    suite.WriteLockFile();
     before = std::move(now);
   };
   Updating updating(suite, drawn);

@@ -16,6 +16,10 @@ namespace kinescope::app {
 /// until then stays accepted.
 int UpdateSuite(GoldenSuite suite, const JobSettings& jobs, const std::filesystem::path& drawn);
 
+/// From now on, accepted pictures lie in `folder`; moves those that are accepted.
+/// @throws std::exception if a file cannot be written.
+void MovePictures(GoldenSuite& suite, const std::string& folder);
+
 /// @throws UsageError in CI (environment variable CI), where no person looks at what is accepted.
 void RefuseToAcceptInCi();
 

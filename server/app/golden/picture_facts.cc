@@ -169,7 +169,9 @@ std::int64_t CountFrom(const json& value, std::int64_t most) {
 }
 
 std::string ToJson(const PictureFacts& facts) {
-  return fmt::format("\"floor\": {},\n {},\n {},\n {}", facts.has_floor,
+  const std::string level =
+      facts.floor_z_m ? fmt::format(" \"floor_z_m\": {:.4f},", *facts.floor_z_m) : "";
+  return fmt::format("\"floor\": {},{}\n {},\n {},\n {}", facts.has_floor, level,
                      Lines("cameras", facts.cameras), Lines("objects", facts.objects),
                      Lines("texts", facts.texts));
 }
@@ -177,6 +179,7 @@ std::string ToJson(const PictureFacts& facts) {
 PictureFacts FactsFrom(const json& json) {
   PictureFacts facts;
   facts.has_floor = json.at("floor");
+  if (json.contains("floor_z_m")) facts.floor_z_m = json.at("floor_z_m").get<double>();
   for (const auto& line : json.at("cameras")) facts.cameras.push_back(CameraFrom(line));
   for (const auto& line : json.at("objects")) facts.objects.push_back(ObjectFrom(line));
   for (const auto& line : json.at("texts")) {

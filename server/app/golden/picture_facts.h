@@ -41,6 +41,7 @@ struct PictureFacts {
   std::vector<TextFact> texts;
   std::vector<CameraFact> cameras;
   bool has_floor = true;
+  std::optional<double> floor_z_m;  // its level; nullopt: it was not recorded yet
 };
 
 /// `loads`: of the scene, where they would be; their names are those of `contents`.

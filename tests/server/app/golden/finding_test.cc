@@ -108,6 +108,14 @@ TEST(Findings, KnowTheFloor) {
   PictureFacts now = Facts();
   now.has_floor = false;
   EXPECT_THAT(Words(now), ElementsAre("floor: expected a floor, found none"));
+  PictureFacts then = now = Facts();
+  now.floor_z_m = 0.05;
+  EXPECT_THAT(Words(now), IsEmpty()) << "a lock of an earlier version does not say where it was";
+  then.floor_z_m = 0;
+  const auto findings = Compare(then, now);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].text, "floor: expected 0.000 m, found 0.050 m");
+  EXPECT_EQ(findings[0].kind, FindingKind::kFloor);
 }
 
 TEST(Findings, AreALineForEachObject) {
