@@ -497,6 +497,19 @@ TEST_F(GoldenMutation, OfAMissingSphereIsNamed) {
   ExpectTold("left_little_finger: is missing");
 }
 
+// As seen in the picture, not as the scene has it.
+TEST_F(GoldenMutation, OfSpheresThatAreNotDrawnIsNamed) {
+  AddToCase("hide: loads");
+  EXPECT_EQ(Check().exit_code, 1);
+  const auto run = nlohmann::json::parse(testing::ReadFile(case_ / "out/run.json"));
+  std::set<std::string> missing;
+  for (const auto& finding : run.at("cases").at(0).at("findings")) {
+    if (finding.at("kind") == "missing") missing.insert(finding.at("object"));
+  }
+  EXPECT_THAT(missing, AllOf(::testing::Contains("right_knee"), ::testing::Contains("l5_s1"),
+                             Not(::testing::Contains("body"))));
+}
+
 TEST_F(GoldenMutation, OfASphereThatMovedByThreePixelsIsNamed) {
   app::GoldenLock lock = app::ReadLock(case_ / "golden.lock");
   for (app::ObjectFact& object : lock["bend"].facts.objects) {
