@@ -177,7 +177,7 @@ class Bridge : public RosBridge {
  private:
   // Known when roscpp was started.
   bool IsSimulated() const {
-    return !config_.stamps_are_of_graph && registration_.Node() && ros::Time::isSimTime();
+    return registration_.Node() && ros::Time::isSimTime();
   }
 
   // Of what is shown; by the clock as it was at the last sample.

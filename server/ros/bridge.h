@@ -40,10 +40,6 @@ struct BridgeConfig {
   std::function<int(const std::string& set, const std::shared_ptr<const MeshFiles>& files)>
       serve_meshes;
 
-  /// The samples come from ROS, so their stamps are of the graph's clock. Else they are of the wall
-  /// clock, and published as that moment of the graph's, which differs under /use_sim_time.
-  bool stamps_are_of_graph = false;
-
   /// Factor for moments of external joint loads: -1 if the other program means the moment that the
   /// child exerts on the parent.
   double external_scale = 1;

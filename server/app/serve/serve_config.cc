@@ -184,7 +184,6 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
     return config;
   }
   config.ros = BridgeOf(options);
-  config.ros->stamps_are_of_graph = ros_bridge::IsGraphUrl(config.source_url);
   UseMeshFiles(MeshCache::Lifetime::kProcess, config.scene);
   if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "none") {
     // The frames of these people are on /tf already. With a second publisher they would jump

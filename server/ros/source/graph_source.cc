@@ -3,7 +3,10 @@
 #include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
+#include <ros/time.h>
 
+#include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -13,9 +16,11 @@
 #include "core/system/starts_with.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
+#include "server/ros/ros_clock.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/live_topics.h"
 #include "server/ros/source/transform_people.h"
+#include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -64,6 +69,28 @@ std::vector<std::string> TopicsBeside(const std::string& topic) {
   return {topic, topic + "_static"};
 }
 
+// Passes samples on with stamps of the wall clock, which never go back.
+class InWallTime : public SampleSink {
+ public:
+  InWallTime(const RosClock& clock, std::map<int, std::int64_t>& newest, SampleSink& sink)
+      : clock_(clock), newest_(newest), sink_(sink) {}
+
+  void OnCharacter(const Character& character) override { sink_.OnCharacter(character); }
+  void OnSample(const BodySample& sample) override {
+    constexpr std::int64_t kMinStepNanos = 1'000;
+    BodySample of_wall = sample;
+    std::int64_t& newest = newest_[sample.character];
+    newest = std::max(newest + kMinStepNanos, clock_.FromRos(sample.stamp_nanos));
+    of_wall.stamp_nanos = newest;
+    sink_.OnSample(of_wall);
+  }
+
+ private:
+  const RosClock& clock_;
+  std::map<int, std::int64_t>& newest_;
+  SampleSink& sink_;
+};
+
 class GraphSource : public Source {
  public:
   explicit GraphSource(const std::string& topic)
@@ -93,9 +120,17 @@ class GraphSource : public Source {
   bool is_live() const override { return true; }
 
  private:
-  Arrival Now() const {
+  std::int64_t WallNow(std::int64_t monotonic) const {
+    return start_wall_ + (monotonic - start_monotonic_);
+  }
+
+  // By the clock of the graph, so that stamps in headers can be compared with it.
+  Arrival Now() {
     const std::int64_t now = MonotonicNanos();
-    return {start_wall_ + (now - start_monotonic_), now};
+    if (!ros::Time::isSimTime()) return {WallNow(now), now};
+    const std::int64_t of_graph = ToNanos(ros::Time::now());
+    clock_.Observe(WallNow(now), of_graph);
+    return {of_graph, now};
   }
 
   void OnMessage(std::size_t index, const LiveTopics::Event& event) {
@@ -113,15 +148,31 @@ class GraphSource : public Source {
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
       if (index > 0) return people_.TakeStatic(transforms_, counters_);
-      return people_.Take(transforms_, Now(), counters_, *sink_);
+      return TakeNow([&](const Arrival& now, SampleSink& sink) {
+        people_.Take(transforms_, now, counters_, sink);
+      });
     }
     if (sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>()) {
       if (!Decode(raw.bytes, link_state_array_)) return Reject(index, kUnreadableMessage);
-      return link_states_.Take(link_state_array_, Now(), counters_, *sink_);
+      return TakeNow([&](const Arrival& now, SampleSink& sink) {
+        link_states_.Take(link_state_array_, now, counters_, sink);
+      });
     }
     const auto type = connection.find("type");
     Reject(index, "is a " + (type == connection.end() ? std::string("message without a type")
                                                       : type->second.substr(0, kLongestTypeName)));
+  }
+
+  template <class Take>
+  void TakeNow(const Take& take) {
+    const Arrival now = Now();
+    if (!ros::Time::isSimTime()) return take(now, *sink_);
+    if (!clock_.has_time()) {
+      ++counters_.ignored["message before there was a time on /clock"];
+      return;
+    }
+    InWallTime sink(clock_, newest_, *sink_);
+    take(now, sink);
   }
 
   void Reject(std::size_t index, const std::string& what) {
@@ -131,6 +182,8 @@ class GraphSource : public Source {
   const std::string description_;
   const std::int64_t start_wall_ = WallNanos();
   const std::int64_t start_monotonic_ = MonotonicNanos();
+  RosClock clock_;                        // without a time unless it is simulated
+  std::map<int, std::int64_t> newest_;    // stamps, by character; if it is
   TransformPeople people_;
   LinkStatesPerson link_states_;
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory

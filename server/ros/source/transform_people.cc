@@ -29,6 +29,7 @@ void TransformPeople::NoticeNames(const tf2_msgs::TFMessage& message, std::int64
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     if (frames_.Add(WithoutSlash(transform.child_frame_id))) new_name_at_ = now;
   }
+  if (new_name_at_ && now < *new_name_at_) new_name_at_ = now;  // the clock was set back
   if (!new_name_at_ || now - *new_name_at_ < settle_nanos_) return;
   new_name_at_.reset();
   frames_.Find();

@@ -20,9 +20,10 @@
 
 namespace kinescope::ros_bridge {
 
-/// Receive time of a message. `stamp_nanos` never goes back.
+/// Receive time of a message. `stamp_nanos` goes back only if the clock of the graph was set back;
+/// then a person's samples begin anew at its new time.
 struct Arrival {
-  std::int64_t stamp_nanos = 0;      // Unix epoch; replaces implausible header stamps
+  std::int64_t stamp_nanos = 0;      // the sender's clock; replaces implausible header stamps
   std::int64_t monotonic_nanos = 0;  // as BodySample::arrival_nanos; 0: from a file
 };
 

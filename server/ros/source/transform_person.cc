@@ -108,6 +108,8 @@ std::int64_t TransformPerson::StampInHeaders() const {
 }
 
 bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
+  if (record_nanos < last_record_nanos_) StartOver(header_nanos, record_nanos);
+  last_record_nanos_ = record_nanos;
   if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
   headers_are_right_ = headers_are_right_ && std::llabs(header_nanos - record_nanos) < kDayNanos &&
                        (samples_ == 0 || header_nanos > last_header_nanos_);
@@ -124,6 +126,16 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
   sample_.stamp_nanos = stamp;
   sample_.time_code_millis = (stamp - first_stamp_ + kNanosPerMilli / 2) / kNanosPerMilli;
   return true;
+}
+
+// After the clock was set back: the time code goes on.
+void TransformPerson::StartOver(std::int64_t header_nanos, std::int64_t record_nanos) {
+  ++steps_back_;
+  headers_are_right_ = true;
+  last_header_nanos_ = header_nanos - 1;
+  const std::int64_t before = std::min(header_nanos, record_nanos) - kMinStepNanos;
+  first_stamp_ += before - sample_.stamp_nanos;
+  sample_.stamp_nanos = before;
 }
 
 void TransformPerson::SetSegments(const Poses& poses) {

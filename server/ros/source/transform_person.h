@@ -61,6 +61,7 @@ class TransformPerson {
   std::int64_t StampInHeaders() const;
   /// False if the set is a repetition of the sample before.
   [[nodiscard]] bool SetStamp(std::int64_t header_nanos, std::int64_t record_nanos);
+  void StartOver(std::int64_t header_nanos, std::int64_t record_nanos);
   void SetSegments(const Poses& poses);
 
   // The set that is being collected.
@@ -77,6 +78,7 @@ class TransformPerson {
   std::uint64_t steps_back_ = 0;
   std::int64_t first_stamp_ = 0;
   std::int64_t last_header_nanos_ = 0;
+  std::int64_t last_record_nanos_ = 0;
   bool headers_are_right_ = true;
   std::optional<bool> arms_are_turned_;  // link frames; unset until a sample decides
 };

@@ -106,13 +106,5 @@ TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
   }
 }
 
-TEST_F(RosBridgeWithASimulator, LeavesStampsThatAreOfTheGraphAsTheyAre) {
-  BridgeConfig config;
-  config.stamps_are_of_graph = true;
-  StartMasterWithSimulatedTime();
-  MakeBridge(config);
-  EXPECT_TRUE(PublishUntil([&] { return bridge_->status().published > 0; }));
-}
-
 }  // namespace
 }  // namespace kinescope::ros_bridge

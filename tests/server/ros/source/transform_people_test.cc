@@ -92,6 +92,22 @@ TEST_F(TransformPeopleTest, ReturnsThePublishedPosesWhenAllNamesAreKnown) {
 }
 
 // Names come one by one; a robot's "head" must not stand in for one that is still under way.
+// As when a bag is played in a loop with its clock.
+TEST_F(TransformPeopleTest, BeginsAnewWhenTheClockOfTheGraphWasSetBack) {
+  Settle();
+  for (int n = 0; n < 20; ++n) Take(n, TransformsOf(PersonAt(n)));
+  for (int n = 2; n < 10; ++n) Take(n, TransformsOf(PersonAt(n)));
+  ASSERT_EQ(sink_.samples.size(), 28U);
+  EXPECT_EQ(counters_.restarts, 1U);
+  EXPECT_THAT(counters_.rejected, IsEmpty());
+  for (std::size_t i = 20; i < 28; ++i) {
+    const std::int64_t n = static_cast<std::int64_t>(i) - 18;
+    EXPECT_EQ(sink_.samples[i].stamp_nanos, kStart + n * kPeriod) << "the stamp in its headers";
+    EXPECT_GE(sink_.samples[i].time_code_millis, sink_.samples[i - 1].time_code_millis);
+    EXPECT_EQ(sink_.samples[i].counter, sink_.samples[i - 1].counter + 1);
+  }
+}
+
 TEST_F(TransformPeopleTest, DoesNotUseTheHeadOfARobotForAPerson) {
   for (const char* frame : {"head", "pelvis", "left_hand", "right_hand"}) {
     Take(0, FrameAtOrigin("base", frame));
