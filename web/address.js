@@ -1,13 +1,15 @@
 // The address of the page holds what it shows, so that a link shows another person the same. Pure but for what is at the
 // end.
 import { LAYOUTS } from './layout.js';
+import { LOADS_SHOWN } from './messages.js';
 import { THEMES } from './theme.js';
+import { SPEEDS } from './viewer_time.js';
 
 /** @typedef {{micros: number|null, place: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
- *    window: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
+ *    window: number|null, loads: import('./loads_shown.js').LoadsShown|null, speed: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
  *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning;
  *    person: character; joints: that are plotted; camera: name, or place (orbit.js); window: time that the plots show,
- *    s. Null otherwise: as the page has it by itself */
+ *    s; loads: where joint loads are shown; speed: of looking back. Null otherwise: as the page has it by itself */
 
 const JOINT = /^[a-z0-9_]{1,40}$/, NAME = /^[a-z_]{1,40}$/, MOST_JOINTS = 15;
 
@@ -31,6 +33,8 @@ export function shownIn(url) {
     camera: NAME.test(camera) || /^[-\d.,]{1,120}$/.test(camera) ? camera : null,
     tab: NAME.test(tab) ? tab : null,
     window: window !== null && window > 0 ? window : null,
+    loads: LOADS_SHOWN.find((name) => name === of('loads')) ?? null,
+    speed: SPEEDS.find((speed) => speed === numberOf(of('speed'))) ?? null,
     view: LAYOUTS.find((name) => name === of('view')) ?? null,
     theme: THEMES.find((name) => name === of('theme')) ?? null,
   };
@@ -49,7 +53,7 @@ export function withShown(url, changes) {
     t: micros === undefined || micros === null ? micros : (Math.ceil(micros) / 1e6).toFixed(6),
     at: place === undefined || place === null ? place : String(Math.ceil(1000 * place - 1e-6) / 1000),
     person: changes.person, joint: joints === undefined || joints === null ? joints : joints.join(), camera: changes.camera,
-    tab: changes.tab, window: changes.window, view: changes.view, theme: changes.theme,
+    tab: changes.tab, window: changes.window, loads: changes.loads, speed: changes.speed, view: changes.view, theme: changes.theme,
   };
   for (const [name, value] of Object.entries(texts)) {
     if (value === null) next.searchParams.delete(name);

@@ -19,7 +19,7 @@ import { Keys } from './keys.js';
 import { Layout } from './layout.js';
 import { mountLinkButton } from './link_button.js';
 import { leftOutText, statusOf } from './status.js';
-import { mountLoadsShown } from './loads_shown.js';
+import { LoadsChoice } from './loads_shown.js';
 import { MarkPad } from './mark_pad.js';
 import { Marks, symbolOf } from './marks.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
@@ -64,6 +64,7 @@ person.choose(linked.person);
 const shown = new Shown({
   send: (command) => connection.send(command), notice: showNotice, changed: onTimeChanged, arrived: updateScene,
 }, linked);
+if (linked.speed) shown.time.speed = linked.speed;
 forgetToken();
 const latencies = new RecentValues();
 
@@ -113,7 +114,11 @@ const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
 }, shown, (moment) => charts.wordsAt(moment), keys);
-const marks = new Marks(() => charts.strip.setMarks(flagsOf(marks)));
+const marks = new Marks(() => {
+  const flags = flagsOf(marks);
+  charts.strip.setMarks(flags);
+  charts.plots.setFlags(flags);
+}, sessionStorage);
 const markPad = new MarkPad({
   pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
@@ -133,7 +138,7 @@ elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
 });
-const loadsShown = mountLoadsShown(elements['loads-shown'], applyLook);
+const loadsShown = new LoadsChoice(elements['loads-shown'], linked.loads, applyLook);
 const tabs = new Tabs(elements.tabs, [elements.side, document.body]);
 layout.follow((name) => {
   placeTools(name === 'phone');
@@ -185,6 +190,7 @@ function addressNow() {
   return {
     person: person.wanted, camera: cameras.text, window: charts.plots.window.isFirst ? null : charts.plots.window.secs,
     joints: joints.join() === FIRST_JOINTS.join() ? null : [...joints],
+    loads: loadsShown.chosen, speed: shown.time.speed === 1 ? null : shown.time.speed,
     tab: tabs.isFirst ? null : tabs.name, view: linked.view, theme: theme?.wanted ?? null,
   };
 }
@@ -338,12 +344,12 @@ async function loadAlarms(now) {
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
-  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark),
+  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark), text: mark.text, isTrial: mark.kind === 'trial',
 }));
 
 function applyLook() {
   if (model === null) return;
-  scene?.setLook({ ...model.look, loads: loadsShown(model.look.loads) });
+  scene?.setLook({ ...model.look, loads: loadsShown.of(model.look.loads) });
   updateScene();
 }
 

@@ -3,18 +3,24 @@ import { LOADS_SHOWN } from './messages.js';
 
 /** @typedef {(typeof LOADS_SHOWN)[number]} LoadsShown */
 
-/** @param {HTMLSelectElement} select  with these values
- *  @param {() => void} onChoice
- *  @returns {(byServer: LoadsShown) => LoadsShown} function that shows and returns the value to use */
-export function mountLoadsShown(select, onChoice) {
-  let chosen = /** @type {LoadsShown|undefined} */ (undefined);
-  select.addEventListener('change', () => {
-    chosen = LOADS_SHOWN.find((value) => value === select.value);
-    onChoice();
-  });
-  return (byServer) => {
-    const used = chosen ?? byServer;
-    select.value = used;
+export class LoadsChoice {
+  /** @param {HTMLSelectElement} select  with these values
+   *  @param {LoadsShown|null} chosen  by the address
+   *  @param {() => void} onChoice */
+  constructor(select, chosen, onChoice) {
+    this.select = select;
+    this.chosen = chosen;
+    select.addEventListener('change', () => {
+      this.chosen = LOADS_SHOWN.find((value) => value === select.value) ?? null;
+      onChoice();
+    });
+  }
+
+  /** Shows and returns the value to use.
+   *  @param {LoadsShown} byServer */
+  of(byServer) {
+    const used = this.chosen ?? byServer;
+    this.select.value = used;
     return used;
-  };
+  }
 }

@@ -10,6 +10,21 @@ const RETRY_MILLIS = 3000;
 const MOST_WAITING = 500;  // that are set while the server is away
 const HEADERS = { 'Content-Type': 'application/json' };
 
+const WAITING = 'kinescope-marks-that-wait';
+
+/** What an earlier page has left there; the store may hold anything.
+ *  @param {Pick<Storage, 'getItem'>|null} store
+ *  @returns {{order: object, what: string, runMicros: number}[]} */
+function readWaiting(store) {
+  try {
+    const kept = /** @type {unknown} */ (JSON.parse(store?.getItem(WAITING) ?? '[]'));
+    return Array.isArray(kept) ? kept.slice(0, MOST_WAITING).filter((each) => typeof each?.order === 'object' && each.order !== null
+      && typeof each.what === 'string' && Number.isFinite(each.runMicros)) : [];
+  } catch {
+    return [];
+  }
+}
+
 /** Of a mark in lists and on the strip: the key of its button, ¶ free text, ✎ a change, ▶ a trial.
  *  @param {Mark} mark */
 export const symbolOf = ({ button, kind }) => (button > 0 ? String(button) : { mark: '¶', change: '✎', trial: '▶' }[kind]);
@@ -25,9 +40,19 @@ export class Marks {
   #isSending = false;  // of these
   /** @type {number[]} */ #mine = [];  // ids of those that this page has set, which it may undo
 
-  /** @param {() => void} changed */
-  constructor(changed) {
+  /** @param {() => void} changed
+   *  @param {Pick<Storage, 'getItem'|'setItem'>|null} [store]  keeps those that wait, should the page be closed or loaded again */
+  constructor(changed, store = null) {
     this.changed = changed;
+    this.store = store;
+    this.#waiting = readWaiting(store);
+  }
+
+  #keepWaiting() {
+    try {
+      this.store?.setItem(WAITING, JSON.stringify(this.#waiting));
+    } catch {  // full, or not allowed: then they wait in this page alone
+    }
   }
 
   /** In the order of their moments; those of earlier runs of the server first.
@@ -130,6 +155,7 @@ export class Marks {
           result.lost.push(`“${what}”: ${messageOf(error)}`);
         }
         this.#waiting.shift();
+        this.#keepWaiting();
       }
       if (server !== null) this.#retryAt = -Infinity;
     } finally {
@@ -155,6 +181,7 @@ export class Marks {
     }
     if (this.#waiting.length >= MOST_WAITING) throw new NoConnection();
     this.#waiting.push({ order, what, runMicros: this.#runMicros });
+    this.#keepWaiting();
     return null;
   }
 

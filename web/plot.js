@@ -16,6 +16,9 @@ const SHARED_CURSOR = 'time';
  *  @typedef {{from: number, to: number, moment: number, wallMillis: (micros: number) => number}} Window  µs
  *  @typedef {{onSeek: (micros: number) => void, onHover: (micros: number|null) => void}} Events */
 
+/** @typedef {{micros: number, endMicros: number|null, label: string, text: string, isTrial: boolean}} Flag
+ *    of a mark; endMicros: of a span that is over */
+
 /** A round number that is at least `value`, so that the axis does not change with each sample.
  *  @param {number} value  > 0 */
 export function roundedUp(value) {
@@ -59,6 +62,7 @@ export class Plot {
   /** @type {Line[]} */ #lines = [];
   /** @type {Limit[]} */ #limits = [];
   /** @type {Window} */ #window = { from: 0, to: 1, moment: 0, wallMillis: (micros) => micros / 1000 };
+  /** @type {Flag[]} */ #flags = [];
   #hasClock = false;
 
   /** @param {HTMLElement} box  becomes as wide as its parent lets it
@@ -91,6 +95,12 @@ export class Plot {
    *  @param {Limit[]} limits */
   setLimits(limits) {
     this.#limits = limits;
+  }
+
+  /** Lines at the moments of marks.
+   *  @param {Flag[]} flags */
+  setFlags(flags) {
+    this.#flags = flags;
   }
 
   /** @param {import('./series.js').Series} series
@@ -220,12 +230,36 @@ export class Plot {
       ctx.fillStyle = this.#color(tone);
       ctx.fillRect(bbox.left, y - pxRatio / 2, bbox.width, pxRatio);
     }
+    this.#drawFlags(ctx, pxRatio, bbox, (micros) => valToPos(micros, 'x', true));
     if (moment >= from && moment <= to) {
       const x = Math.min(bbox.left + bbox.width - pxRatio, valToPos(moment, 'x', true));
       ctx.fillStyle = this.#color('mode');
       ctx.fillRect(x - pxRatio, bbox.top, 2 * pxRatio, bbox.height);
     }
     ctx.restore();
+  }
+
+  /** A line at each mark, with its sign at the top; a bar over the time of a span.
+   *  @param {CanvasRenderingContext2D} ctx
+   *  @param {number} pxRatio
+   *  @param {uPlot.BBox} bbox
+   *  @param {(micros: number) => number} xOf */
+  #drawFlags(ctx, pxRatio, bbox, xOf) {
+    const { from, to } = this.#window;
+    ctx.fillStyle = this.#color('quiet');
+    ctx.font = `700 ${10 * pxRatio}px ${getComputedStyle(this.box).fontFamily}`;
+    ctx.textBaseline = 'top';
+    for (const { micros, endMicros, label } of this.#flags) {
+      const end = endMicros ?? micros;
+      if (end < from || micros > to) continue;
+      const left = Math.max(bbox.left, xOf(micros));
+      if (endMicros !== null) ctx.fillRect(left, bbox.top, Math.min(bbox.left + bbox.width, xOf(endMicros)) - left, 2 * pxRatio);
+      if (micros < from) continue;
+      ctx.globalAlpha = 0.6;
+      ctx.fillRect(left - pxRatio / 2, bbox.top, pxRatio, bbox.height);
+      ctx.globalAlpha = 1;
+      ctx.fillText([...label].slice(0, 2).join(''), left + 3 * pxRatio, bbox.top + 3 * pxRatio);
+    }
   }
 }
 

@@ -3,8 +3,9 @@ import { DASHES } from './plot.js';
 
 const MARGIN = 16, TITLE_PX = 22, GAP_PX = 10, HEAD_PX = 46;
 
-/** @typedef {{person: string, source: string, from: number, to: number, wallMillis: (micros: number) => number}} About
- *    source: the trial or recording; from, to: µs of the server's clock
+/** @typedef {{person: string, source: string, from: number, to: number, wallMillis: (micros: number) => number,
+ *    flags: import('./plot.js').Flag[]}} About
+ *    source: trials and recording; from, to: µs of the server's clock; flags: of marks
  *  @typedef {{title: string, canvas: HTMLCanvasElement|null, lines: {name: string}[]}} Part */
 
 /** A cell in quotes if it needs them. A text that a spreadsheet would take for a formula gets an apostrophe.
@@ -15,13 +16,13 @@ export function cellOf(text) {
 }
 
 /** A row for each column of time: its beginning, how many samples it has, and of each value the smallest, the largest
- *  and the newest. Unknown values are empty.
+ *  and the newest; at last what was marked in it. Unknown values are empty.
  *  @param {import('./series.js').Series} series
  *  @param {About} about */
 export function csvOf(series, about) {
   const { keys, width } = series.grid;
   const rows = [['person', 'source', 'time', 'seconds', 'samples',
-    ...keys.flatMap((key) => [`${key}_min`, `${key}_max`, `${key}_last`])]];
+    ...keys.flatMap((key) => [`${key}_min`, `${key}_max`, `${key}_last`]), 'marks']];
   for (let n = series.numberAt(about.from); n * width < about.to; ++n) {
     const column = series.column(n);
     if (column === undefined) continue;
@@ -30,7 +31,7 @@ export function csvOf(series, about) {
       ((n * width - about.from) / 1e6).toFixed(3), String(column.samples), ...keys.flatMap((key) => {
         const value = column.values[key];
         return [text(value?.min), text(value?.max), text(value?.last)];
-      })]);
+      }), cellOf(about.flags.filter(({ micros }) => micros >= n * width && micros < (n + 1) * width).map((flag) => flag.text).join('; '))]);
   }
   return new Blob([rows.map((row) => row.join(',')).join('\r\n'), '\r\n'], { type: 'text/csv' });
 }

@@ -38,6 +38,13 @@ export const KINDS = [
  *  @param {string} label */
 export const shortJoint = (label) => label.replace(/^Right /, 'R ').replace(/^Left /, 'L ');
 
+/** The trials that ran in this time.
+ *  @param {import('./plot.js').Flag[]} flags
+ *  @param {number} from
+ *  @param {number} to  µs */
+export const trialsIn = (flags, from, to) =>
+  flags.filter(({ isTrial, micros, endMicros }) => isTrial && micros < to && (endMicros ?? Infinity) > from).map(({ text }) => text);
+
 /** One plot with its title, the names of its lines and their values. */
 class Figure {
   element = document.createElement('figure');
@@ -266,6 +273,14 @@ export class Plots {
     return this.#series ? [{ series: this.#series, from, to }] : [];
   }
 
+  /** @param {import('./plot.js').Flag[]} flags  of all marks whose moments may be shown */
+  setFlags(flags) {
+    this.#flags = flags;
+    for (const { plot } of this.figures) plot.setFlags(flags);
+    this.#drawn = '';
+  }
+  /** @type {import('./plot.js').Flag[]} */ #flags = [];
+
   /** @param {When} when
    *  @param {import('./floor_plan.js').Now & {heading: number}} now  what is on the screen, of this person */
   draw(when, now) {
@@ -308,7 +323,10 @@ export class Plots {
     const series = this.#series, when = this.#when, person = this.#person;
     if (series === null || when === null || person === undefined) return this.page.failed('There is nothing to save yet');
     const { from, to } = this.window.at(when);
-    const about = { person: personLabel(person), source: this.page.source(), from, to, wallMillis: when.wallMillis };
+    const about = {
+      person: personLabel(person), source: [...trialsIn(this.#flags, from, to), this.page.source()].join(' · '), from, to,
+      wallMillis: when.wallMillis, flags: this.#flags,
+    };
     try {
       const parts = [...this.figures.map(({ title, plot }) => ({ title, canvas: plot.canvas, lines: plot.lines })),
         { title: 'CoM and CoP on the floor, from above', canvas: this.parts.plan, lines: [] }];

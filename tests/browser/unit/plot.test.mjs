@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { pointsOf, roundedUp } from '../../../web/plot.js';
 import { cellOf, csvOf, fileNameOf } from '../../../web/plot_files.js';
-import { shortJoint } from '../../../web/plots.js';
+import { shortJoint, trialsIn } from '../../../web/plots.js';
 import { Series } from '../../../web/series.js';
 
 const WIDTH = 100_000;  // µs
@@ -34,6 +34,13 @@ test('axes end at round numbers', () => {
   }
 });
 
+test('files name the trials that ran in their time', () => {
+  const trial = (text, micros, endMicros) => ({ micros, endMicros, label: '▶', text, isTrial: true });
+  const flags = [trial('before', 0, 100), trial('anna lifts 1', 50, 300), trial('now', 250, null), { ...trial('a mark', 200, null), isTrial: false }];
+  assert.deepEqual(trialsIn(flags, 100, 200), ['anna lifts 1']);
+  assert.deepEqual(trialsIn(flags, 200, 400), ['anna lifts 1', 'now']);
+});
+
 test('joints have short names', () => {
   assert.equal(shortJoint('Right shoulder'), 'R shoulder');
   assert.equal(shortJoint('Left wrist'), 'L wrist');
@@ -41,14 +48,16 @@ test('joints have short names', () => {
 });
 
 test('the CSV has a row for each column, with person and trial, and nothing that a spreadsheet would run', async () => {
-  const about = { person: '=HYPERLINK("x")', source: 'udp://0.0.0.0:9763', from: 0, to: 300_000, wallMillis: (micros) => micros / 1000 };
+  const about = { person: '=HYPERLINK("x")', source: 'udp://0.0.0.0:9763', from: 0, to: 300_000, wallMillis: (micros) => micros / 1000,
+    flags: [{ micros: 120_000, endMicros: null, label: '1', text: 'lifts; slowly', isTrial: false },
+      { micros: 199_999, endMicros: 250_000, label: '2', text: '=x', isTrial: false }] };
   const text = await csvOf(seriesOf([known(1, 2), unknown, empty, known(5, 5)]), about).text();
   const name = '"\'=HYPERLINK(""x"")"';
   assert.deepEqual(text.split('\r\n'), [
-    'person,source,time,seconds,samples,margin_min,margin_max,margin_last',
-    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.000Z,0.000,6,1,2,2`,
-    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.100Z,0.100,6,,,`,
-    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.200Z,0.200,0,,,`,
+    'person,source,time,seconds,samples,margin_min,margin_max,margin_last,marks',
+    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.000Z,0.000,6,1,2,2,`,
+    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.100Z,0.100,6,,,,lifts; slowly; =x`,
+    `${name},udp://0.0.0.0:9763,1970-01-01T00:00:00.200Z,0.200,0,,,,`,
     '']);
   assert.equal(cellOf('a,b'), '"a,b"');
   assert.equal(fileNameOf({ ...about, person: '../Änne S.' }, 'csv'), 'kinescope__Änne_S__1970-01-01T00-00-00-300Z.csv');
