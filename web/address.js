@@ -6,7 +6,8 @@ import { THEMES } from './theme.js';
 import { SPEEDS } from './viewer_time.js';
 
 /** @typedef {{micros: number|null, place: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
- *    window: number|null, loads: import('./loads_shown.js').LoadsShown|null, speed: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
+ *    window: number|null, loads: import('./loads_shown.js').LoadsShown|null, speed: number|null,
+ *    view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
  *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning;
  *    person: character; joints: that are plotted; camera: name, or place (orbit.js); window: time that the plots show,
  *    s; loads: where joint loads are shown; speed: of looking back. Null otherwise: as the page has it by itself */
