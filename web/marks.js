@@ -1,6 +1,6 @@
 // The marks of the server: what they are, and how they are set, ended and removed.
 import { ask, messageOf, NoConnection, request } from './server_api.js';
-import { readMark, readMarks } from './messages.js';
+import { boolean, listOf, number, object, optional, readMark, readMarks, string } from './messages.js';
 
 /** @typedef {import('./messages.js').Mark} Mark
  *  @typedef {{state: number, button?: number, text?: string, is_span?: boolean}} NewMark  state: number of the one on the
@@ -11,15 +11,18 @@ const MOST_WAITING = 500;  // that are set while the server is away
 const HEADERS = { 'Content-Type': 'application/json' };
 
 const WAITING = 'kinescope-marks-that-wait';
+const readOrders = listOf(object({
+  order: object({
+    id: optional(number), state: number, button: optional(number), text: optional(string), is_span: optional(boolean),
+  }),
+  what: string, runMicros: number,
+}));
 
 /** What an earlier page has left there; the store may hold anything.
- *  @param {Pick<Storage, 'getItem'>|null} store
- *  @returns {{order: object, what: string, runMicros: number}[]} */
+ *  @param {Pick<Storage, 'getItem'>|null} store */
 function readWaiting(store) {
   try {
-    const kept = /** @type {unknown} */ (JSON.parse(store?.getItem(WAITING) ?? '[]'));
-    return Array.isArray(kept) ? kept.slice(0, MOST_WAITING).filter((each) => typeof each?.order === 'object' && each.order !== null
-      && typeof each.what === 'string' && Number.isFinite(each.runMicros)) : [];
+    return readOrders(JSON.parse(store?.getItem(WAITING) ?? '[]'), WAITING).slice(0, MOST_WAITING);
   } catch {
     return [];
   }
