@@ -116,6 +116,7 @@ std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& fo
   std::exception_ptr cannot_write;  // which is no fault of the case
   try {
     Draw(*found.read, renderer, [&](GoldenDrawing drawing) {
+      CheckMasksOf(found, drawing);
       try {
         add(CheckPicture(suite, found, settings, environment, std::move(drawing)));
       } catch (...) {

@@ -81,7 +81,6 @@ class PictureCheck {
         drawing_(std::move(drawing)),
         masks_(MasksOf(*found.read, drawing_)),
         verdict_(VerdictOf(suite, found, drawing_.frame)) {
-    CheckMasks(masks_, drawing_.image.width, drawing_.image.height);
     for (const Mask& mask : drawing_.masks) verdict_.masks.push_back(mask.box);
     verdict_.now = DescriptionOf(*found.read, drawing_, environment);
   }
@@ -408,6 +407,10 @@ int LineOf(const FoundCase& found, const std::string& key) {
   if (!found.read) return 1;
   const auto line = found.read->lines.find(key);
   return line == found.read->lines.end() ? 1 : line->second;
+}
+
+void CheckMasksOf(const FoundCase& found, const GoldenDrawing& drawing) {
+  CheckMasks(MasksOf(*found.read, drawing), drawing.image.width, drawing.image.height);
 }
 
 CaseVerdict CheckPicture(const GoldenSuite& suite, const FoundCase& found,
