@@ -40,12 +40,12 @@ double SizeOf(LoadClass load_class);
 /// The rim of the mark of a class: above 0 dark, below 0 white, the value is its opacity; 0: none.
 double RimOf(LoadClass load_class);
 
-/// Radius of the load sphere of `joint`, m: no sphere is wider than the limb around it.
-/// `height`: stature of the person, m.
-double SphereRadius(int joint, LoadClass load_class, double height);
+/// Radius of the load sphere of `joint`, m: no sphere is wider than the person's limb around it at
+/// rest, by their sex, stature and mass.
+double SphereRadius(int joint, LoadClass load_class, const PersonModel& model);
 
 /// How far before its joint a load sphere counts as being, m: it is drawn over the skin around it,
-/// and is hidden by other limbs.
+/// and is hidden by other limbs. `height`: stature of the person, m.
 double SphereDepth(int joint, double height);
 
 }  // namespace kinescope

@@ -46,7 +46,6 @@ std::vector<SphereInPicture> LocateSpheres(const SceneState& state, const Camera
                                            int width_px, int height_px) {
   std::vector<SphereInPicture> spheres;
   for (const PersonState& person : state.people) {
-    const double height = person.model->human.skeleton.height;
     for (const JointLoad& load : person.loads) {
       const Projected center = Project(load.position, camera, width_px, height_px);
       SphereInPicture sphere;
@@ -57,7 +56,7 @@ std::vector<SphereInPicture> LocateSpheres(const SceneState& state, const Camera
       sphere.x_px = center.x_px;
       sphere.y_px = center.y_px;
       sphere.depth_m = center.depth_m;
-      sphere.radius_px = SphereRadius(load.joint, load.load_class, height) * center.px_per_m;
+      sphere.radius_px = SphereRadius(load.joint, load.load_class, *person.model) * center.px_per_m;
       spheres.push_back(std::move(sphere));
     }
   }

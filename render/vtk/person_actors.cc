@@ -255,7 +255,7 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
   for (const JointLoad& load : person.loads) {
     // The last one is for the centre of mass.
     if (!has_spheres || looks_.size() + 1 == kSphereCapacity) break;
-    looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
+    looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, *person.model),
                       SphereDepth(load.joint, height), ColorOf(load.load_class),
                       RimOf(load.load_class)});
     sphere_names_.emplace_back(urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name);

@@ -80,8 +80,8 @@ std::uint8_t CountByte(std::size_t count) {
   return static_cast<std::uint8_t>(std::min<std::size_t>(count, 255));
 }
 
-void PutLoad(Writer& out, const JointLoad& load, double height) {
-  const double radius_mm = 1000 * SphereRadius(load.joint, load.load_class, height);
+void PutLoad(Writer& out, const JointLoad& load, const PersonModel& model) {
+  const double radius_mm = 1000 * SphereRadius(load.joint, load.load_class, model);
   out.Put(static_cast<std::uint8_t>(load.joint));
   out.Put(static_cast<std::uint8_t>(load.load_class));
   out.Put(static_cast<std::uint16_t>(std::clamp(std::round(radius_mm), 0.0, 65535.0)));
@@ -140,8 +140,7 @@ void PutPerson(Writer& out, const PersonState& person, double view_height) {
   out.Put(static_cast<std::uint8_t>(forces.metric));
   out.Put(static_cast<std::uint16_t>(std::lround(1000 * view_height)));
   for (const urdf::Pose& link : links) PutPose(out, link);
-  const double height = person.model->human.skeleton.height;
-  for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
+  for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], *person.model);
   for (std::size_t i = 0; i < forces.support.size; ++i) {
     out.PutFloat(forces.support.corners[i].x());
     out.PutFloat(forces.support.corners[i].y());

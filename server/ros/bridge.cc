@@ -329,7 +329,7 @@ class Bridge : public RosBridge {
     for (auto& [character, outlet] : outlets_) {
       const bool has_left = outlet.seen_in_number != last_live_number_;  // before it stopped
       if (has_left || !outlet.topics || outlet.markers.markers.empty()) continue;
-      MakeStale(outlet.model->human.skeleton.height, outlet.markers);
+      MakeStale(*outlet.model, outlet.markers);
       outlet.topics->markers.publish(outlet.markers);
     }
   }

@@ -135,10 +135,10 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message) {
   MarkerWriter out(message, person, names, reference_frame, frames);
-  const double stature = person.model->human.skeleton.height;
   for (const JointLoad& load : person.loads) {
     out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
-                  SphereRadius(load.joint, load.load_class, stature), ColorOf(load.load_class));
+                  SphereRadius(load.joint, load.load_class, *person.model),
+                  ColorOf(load.load_class));
   }
   if (person.com) {
     out.AddToLink(urdf::kPelvis, kCom, 0, *person.com, kComRadius, kComColor);
@@ -153,12 +153,12 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
   out.Finish();
 }
 
-void MakeStale(double stature, visualization_msgs::MarkerArray& message) {
+void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& message) {
   for (Marker& marker : message.markers) {
     SetColor(ColorOf(LoadClass::kUnknown), marker);
     marker.lifetime = ros::Duration(0);  // no lifetime
     if (marker.ns == kLoads) {
-      Set(marker.scale, Cube(2 * SphereRadius(marker.id, LoadClass::kUnknown, stature)));
+      Set(marker.scale, Cube(2 * SphereRadius(marker.id, LoadClass::kUnknown, model)));
     } else if (marker.ns == kCop || marker.ns == kForces) {
       marker.action = Marker::DELETE;
     }

@@ -29,8 +29,9 @@ enum class MarkerFrames {
   kLinks,
 };
 
-/// ns "loads": one sphere per scored joint, id = urdf::Joint; grey if the load is unknown. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor,
-/// id 0; "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
+/// ns "loads": one sphere per scored joint, id = urdf::Joint; grey if the load is unknown. ns
+/// "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor, id 0;
+/// "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
 /// (kMetresPerNewton), id = urdf::Side; "hand_loads": the hand loads as solids. Absent and unknown
 /// values have no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
@@ -40,7 +41,7 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
 /// Turns the markers last sent into those of a stream that stopped: grey, with the size of unknown
 /// loads, and without lifetime. The centre of pressure and the arrows are removed, because forces
 /// are unknown now.
-void MakeStale(double stature, visualization_msgs::MarkerArray& message);
+void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& message);
 
 /// Whether it is a namespace of these markers.
 bool IsOwnMarkerNamespace(const std::string& ns);

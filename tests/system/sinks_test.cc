@@ -117,8 +117,7 @@ ByJoint OfMarkers(const PersonState& person) {
   for (const auto& marker : message.markers) {
     if (marker.ns != "loads") continue;
     const LoadClass by_color = ClassOfColor({marker.color.r, marker.color.g, marker.color.b});
-    EXPECT_DOUBLE_EQ(marker.scale.x,
-                     2 * SphereRadius(marker.id, by_color, person.model->human.skeleton.height))
+    EXPECT_DOUBLE_EQ(marker.scale.x, 2 * SphereRadius(marker.id, by_color, *person.model))
         << "size and colour differ";
     said[marker.id] = {by_color, std::nan("")};
   }

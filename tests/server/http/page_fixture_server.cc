@@ -236,7 +236,7 @@ json Describe() {
       const bool is_known = std::isfinite(load.ratio);
       loads.push_back({{"joint", load.joint},
                        {"loadClass", Name(load.load_class)},
-                       {"radius", SphereRadius(load.joint, load.load_class, 1.75)},
+                       {"radius", SphereRadius(load.joint, load.load_class, *person.model)},
                        {"position", Numbers(load.position)},
                        {"ratio", is_known ? json(load.shown_ratio) : json(nullptr)},
                        {"moment", is_known ? json(load.deciding_moment) : json(nullptr)},

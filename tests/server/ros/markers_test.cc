@@ -40,7 +40,7 @@ TEST(Markers, ShowEveryLoadAsThePictureDoes) {
     EXPECT_EQ(marker.ns, "loads");
     EXPECT_EQ(marker.id, load.joint);
     EXPECT_EQ(marker.type, Marker::SPHERE);
-    EXPECT_EQ(marker.scale.x, 2 * SphereRadius(load.joint, load.load_class, 1.6));
+    EXPECT_EQ(marker.scale.x, 2 * SphereRadius(load.joint, load.load_class, *person.model));
     EXPECT_EQ(marker.scale.x, marker.scale.z);
     EXPECT_EQ(marker.pose.position.y, load.position.y());
     EXPECT_EQ(marker.pose.orientation.w, 1);
@@ -94,13 +94,13 @@ TEST(Markers, AreNotKeptFromAnEarlierSample) {
 TEST(Markers, AreGreySmallAndPermanentAfterTheStreamStopped) {
   const PersonState person = Person();
   auto message = Of(person);
-  MakeStale(1.6, message);
+  MakeStale(*person.model, message);
   for (const Marker& marker : message.markers) {
     ExpectColor(ColorOf(LoadClass::kUnknown), marker);
     EXPECT_EQ(marker.lifetime.toSec(), 0);
     EXPECT_EQ(marker.action, marker.ns == "cop" ? Marker::DELETE : Marker::ADD);
     if (marker.ns != "loads") continue;
-    EXPECT_EQ(marker.scale.y, 2 * SphereRadius(marker.id, LoadClass::kUnknown, 1.6));
+    EXPECT_EQ(marker.scale.y, 2 * SphereRadius(marker.id, LoadClass::kUnknown, *person.model));
   }
   FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0,
               message);  // the stream came back
