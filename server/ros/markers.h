@@ -29,8 +29,9 @@ enum class MarkerFrames {
   kLinks,
 };
 
-/// ns "loads": one sphere per scored joint, id = urdf::Joint; grey if the load is unknown. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor,
-/// id 0; "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
+/// ns "loads": one sphere per scored joint, id = urdf::Joint; grey if the load is unknown. ns
+/// "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor, id 0;
+/// "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
 /// (kMetresPerNewton), id = urdf::Side; "hand_loads": the hand loads as solids. Absent and unknown
 /// values have no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
