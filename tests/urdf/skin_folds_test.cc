@@ -1,15 +1,20 @@
-// Where people have no folds the skin has none: on top of a shoulder whose arm is overhead.
+// Where people have no folds the skin has none: on top of a shoulder whose arm is overhead, and on
+// the belly of a bent trunk.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "tests/urdf/skin_postures.h"
 
 namespace kinescope::skin {
 namespace {
 
+using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urdf::At;
 
@@ -59,6 +64,58 @@ TEST(SkinFolds, NoneAreSharpOnTheShoulderOfARaisedArm) {
       });
       EXPECT_LT(folded, 0.01) << raised.name << (is_woman ? ", woman" : ", man") << ", m";
     }
+  }
+}
+
+// The front of the belly beside the midline from the hips to the breastbone, every centimetre of
+// the bind pose.
+std::vector<Vector3d> ProfileOf(const PersonSkin& skin, const PersonSkin::Surface& surface) {
+  constexpr int kPlaces = 28;
+  std::vector<Vector3d> profile(kPlaces, Vector3d::Zero());
+  std::vector<double> shares(kPlaces, 0);
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const Vector3f& p = skin.rest()[i];
+    if (p.x() < 0.03f || std::abs(p.y()) > 0.06f) continue;
+    for (int place = 0; place < kPlaces; ++place) {
+      const double away = (p.z() - (0.04 + 0.01 * place)) / 0.008;
+      const double share = std::exp(-away * away);
+      profile[At(place)] += share * surface.positions[i].cast<double>();
+      shares[At(place)] += share;
+    }
+  }
+  for (int place = 0; place < kPlaces; ++place) profile[At(place)] /= shares[At(place)];
+  return profile;
+}
+
+// How far the profile leaves its own mean over 8 cm at most, m.
+double RippleOf(const std::vector<Vector3d>& profile) {
+  constexpr std::size_t kReach = 3;
+  std::vector<double> bulge;  // out of the chord between neighbours
+  for (std::size_t i = kReach; i + kReach < profile.size(); ++i) {
+    const Vector3d chord = profile[i + kReach] - profile[i - kReach];
+    const Vector3d out = chord.cross(Vector3d::UnitY()).normalized();
+    bulge.push_back(out.dot(profile[i] - 0.5 * (profile[i + kReach] + profile[i - kReach])));
+  }
+  double most = 0;
+  for (std::size_t i = kReach; i + kReach < bulge.size(); ++i) {
+    most = std::max(most, std::abs(bulge[i] - 0.5 * (bulge[i - kReach] + bulge[i + kReach])));
+  }
+  return most;
+}
+
+TEST(SkinFolds, ABentBellyHasNoRippleForEachJointOfTheSpine) {
+  for (const bool is_woman : {false, true}) {
+    const PersonSkin skin = SkinOf(is_woman, 1.75, is_woman ? 72.4 : 75);
+    PersonSkin::Surface rest, bent;
+    skin.Pose(skin.bind().links, {}, rest);
+    urdf::LinkPoses links = skin.bind().links;
+    for (const int joint : {urdf::jL5S1, urdf::jL4L3, urdf::jL1T12, urdf::jT9T8}) {
+      links = TurnedAt(links, joint, Vector3d::UnitY(), 18);
+    }
+    skin.Pose(links, {}, bent);
+    const double of_rest = RippleOf(ProfileOf(skin, rest)),
+                 of_bent = RippleOf(ProfileOf(skin, bent));
+    EXPECT_LT(of_bent, of_rest + 0.001) << (is_woman ? "woman" : "man") << ", m";
   }
 }
 

@@ -83,10 +83,11 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
   const auto up = [&](int segment, double from, double to) {
     return Ramp(from, to, p.z() - bind.links[At(segment)].position.z());
   };
-  f[kPastL5] = up(urdf::kL5, -0.050, 0.050);
-  f[kPastL3] = up(urdf::kL3, -0.045, 0.045);
-  f[kPastT12] = up(urdf::kT12, -0.045, 0.045);
-  f[kPastT8] = up(urdf::kT8, -0.045, 0.045);
+  // Wide enough to overlap: a bent spine is one curve, without a ripple for each of its joints.
+  f[kPastL5] = up(urdf::kL5, -0.085, 0.085);
+  f[kPastL3] = up(urdf::kL3, -0.085, 0.085);
+  f[kPastT12] = up(urdf::kT12, -0.085, 0.085);
+  f[kPastT8] = up(urdf::kT8, -0.085, 0.085);
   // The planes of neck and skull fall to the front.
   const double tilt = 0.45 * p.x();
   f[kPastNeck] = up(urdf::kNeck, -0.032 - tilt, 0.050 - tilt) * Ramp(0.125, 0.060, p.y());
