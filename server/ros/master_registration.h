@@ -102,7 +102,7 @@ class MasterRegistration {
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
   void CountRefused(const char* topic, const char* kind);  // on the thread of the queue
-  enum class Latch { kNo, kYes };           // whether who subscribes later hears the last message
+  enum class Latch { kNo, kYes };  // whether who subscribes later hears the last message
   template <class Message>
   ros::Publisher Topic(const std::string& name, Latch latch = Latch::kNo);
   bool RegisterAll();

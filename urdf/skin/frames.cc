@@ -166,7 +166,7 @@ FarthestMove FarthestMoveOf(const Frame& frame) {
   FarthestMove move;  // of the frame in the middle of the joint
   switch (frame.segment) {
     case urdf::kRightUpperArm:
-    case urdf::kLeftUpperArm: move.up_bone = 0.060; break;
+    case urdf::kLeftUpperArm: move.up_bone = 0.040; break;
     case urdf::kRightForeArm:
     case urdf::kLeftForeArm: move.into_bend = -0.012; break;
     case urdf::kRightUpperLeg:

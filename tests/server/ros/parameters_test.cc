@@ -158,17 +158,14 @@ TEST_F(RosBridgeWithMaster, GivesUpTheDescriptionOfARobotThatIsStartedLater) {
     return is_text ? static_cast<std::string>(reply.value) : std::string();
   };
   const auto get = [&](const std::string& name) { return parameter("getParam", name, nullptr); };
-  ASSERT_TRUE(
-      Within(kTestPatience, [&] { return get("/robot_description") == model_->urdf_xml; }));
+  ASSERT_TRUE(Within(kTestPatience, [&] { return get("/robot_description") == model_->urdf_xml; }));
   const char arm[] = "<robot name=\"arm\"><link name=\"base\"/></robot>";
   parameter("setParam", "/robot_description", arm);
-  EXPECT_TRUE(
-      Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
+  EXPECT_TRUE(Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
   const SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
   Publish(state);
-  EXPECT_TRUE(Within(kTestPatience, [&] {
-    return get("/human_description") == state.people[0].model->urdf_xml;
-  }));
+  EXPECT_TRUE(Within(kTestPatience,
+                     [&] { return get("/human_description") == state.people[0].model->urdf_xml; }));
   EXPECT_EQ(get("/robot_description"), arm);
 }
 
@@ -202,8 +199,7 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
     const XmlRpc::XmlRpcValue value = call("getParam", arguments);
     return value.getType() == XmlRpc::XmlRpcValue::TypeString ? std::string(value) : "";
   };
-  EXPECT_TRUE(
-      Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
+  EXPECT_TRUE(Within(kTestPatience, [&] { return get("/human_description") == model_->urdf_xml; }));
   EXPECT_EQ(get("/robot_description"), model_->urdf_xml + " ");
 }
 

@@ -134,9 +134,11 @@ double TrunkSolid::Girdle(const Point& p) const {
              0.050);
   // Collar bone.
   girdle.Add(
-      RoundCone(p, {0.060 - 0.003 * woman, 0.020, 0.436}, {0.018, 0.140, 0.456}, 0.0115, 0.0105) +
+      RoundCone(p, {0.056 - 0.003 * woman, 0.026, 0.437}, {0.018, 0.140, 0.456}, 0.0105, 0.0105) +
           0.003 * woman + 0.004 * heavy,
-      0.030);
+      0.036);
+  // Breastbone and first ribs, flush with the collar bones.
+  girdle.Add(Ellipsoid(p, {0.036 - 0.004 * woman, 0.034, 0.400}, {0.050, 0.078, 0.050}), 0.040);
   return girdle.value() - 0.008 * heavy;
 }
 

@@ -83,20 +83,27 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
   const auto up = [&](int segment, double from, double to) {
     return Ramp(from, to, p.z() - bind.links[At(segment)].position.z());
   };
-  f[kPastL5] = up(urdf::kL5, -0.050, 0.050);
-  f[kPastL3] = up(urdf::kL3, -0.045, 0.045);
-  f[kPastT12] = up(urdf::kT12, -0.045, 0.045);
-  f[kPastT8] = up(urdf::kT8, -0.045, 0.045);
+  // Wide enough to overlap: a bent spine is one curve, without a ripple for each of its joints.
+  f[kPastL5] = up(urdf::kL5, -0.085, 0.085);
+  f[kPastL3] = up(urdf::kL3, -0.085, 0.085);
+  f[kPastT12] = up(urdf::kT12, -0.085, 0.085);
+  f[kPastT8] = up(urdf::kT8, -0.085, 0.085);
   // The planes of neck and skull fall to the front.
   const double tilt = 0.45 * p.x();
   f[kPastNeck] = up(urdf::kNeck, -0.032 - tilt, 0.050 - tilt) * Ramp(0.125, 0.060, p.y());
   f[kPastHead] = up(urdf::kHead, -0.038 - tilt, 0.002 - tilt);
   const double below_shoulder = bind.links[urdf::kLeftUpperArm].position.z() - p.z();
-  f[kGirdle] = Ramp(0.030, 0.140, p.y()) * Ramp(0.150, 0.015, below_shoulder) * (1 - f[kPastNeck]);
+  // From the midline and the neck on so slowly that a raised girdle is no collar around the neck.
+  f[kGirdle] =
+      Ramp(0.005, 0.150, p.y()) * Ramp(0.150, 0.022, below_shoulder) * Ramp(0.580, 0.430, p.z());
 
-  const bool may_be_arm = p.y() > 0.07 && p.z() > -0.25;  // thighs are as far out as armpits
+  const bool may_be_arm = p.y() > 0.025 && p.z() > -0.25;  // thighs are as far out as armpits
   const double is_arm = may_be_arm ? Ramp(-0.035, 0.030, parts.trunk - parts.arm) : 0;
-  if (is_arm > 0) {
+  // The trapezius, too, goes along with a raised arm: it ends in a curve and not in a corner.
+  const double beside_neck = Ramp(0.025, 0.125, p.y());
+  const double is_on_top =
+      may_be_arm ? beside_neck * Ramp(-0.103, -0.056, parts.trunk - parts.arm) : 0;
+  if (is_on_top > 0) {
     const Point a = InLink(bind.links[urdf::kLeftUpperArm], p);
     const Point e = InLink(bind.links[urdf::kLeftForeArm], p);
     const Point w = InLink(bind.links[urdf::kLeftHand], p);
@@ -105,10 +112,11 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
     };
     // Linear, and reaching onto the trunk: otherwise the deltoid folds into a sleeve. Above the
     // joint by angle, as a fan: raising the arm closes it, and none of its ribs overtakes another.
-    const double below = linear(-0.052, 0.070 + 0.045 * Ramp(-0.010, 0.045, a.y()), -a.z());
+    const double below = linear(-0.053, 0.100 + 0.040 * Ramp(-0.010, 0.045, a.y()), -a.z());
     const double fan =
-        Mix(1 - std::min(AngleOf(-a.z() / a.norm()) / 2.4, 1.0), 1, Ramp(0.04, 0.165, -a.z()));
-    f[kPastShoulder] = is_arm * Mix(below, fan, Ramp(-0.035, 0.010, a.y()));
+        Mix(1 - std::min(AngleOf(-a.z() / a.norm()) / 3.3, 1.0), 1, Ramp(0.026, 0.158, -a.z()));
+    const double above = Ramp(-0.056, -0.014, a.y());
+    f[kPastShoulder] = Mix(is_arm * below, is_on_top * fan, above);
     f[kAlongUpperArm] = is_arm * linear(0.160, 0.280, -a.z());
     f[kPastElbow] = is_arm * Ramp(-0.046, 0.046, -e.z());
     f[kAlongForeArm] = is_arm * linear(0.040, 0.220, -e.z());
@@ -334,7 +342,7 @@ std::vector<VertexWeights> MakeWeights(const BodySolid& body, const std::vector<
   for (const Point& vertex : vertices) fields.push_back(FieldsAt(body, vertex));
   const Evener even(vertices, triangles);
   constexpr std::pair<std::size_t, int> kRounds[] = {
-      {kPastShoulder, 10}, {kPastHip, 14},      {kGirdle, 12},   {kPastNeck, 6},
+      {kPastShoulder, 20}, {kPastHip, 14},      {kGirdle, 20},   {kPastNeck, 6},
       {kPastHead, 3},      {kAlongUpperArm, 4}, {kPastAnkle, 3}, {kRay, 2},
       {kRay + 1, 2},       {kRay + 2, 2},       {kRay + 3, 2},   {kRay + 4, 2}};
   for (const auto& [field, rounds] : kRounds) even(fields, field, rounds);
