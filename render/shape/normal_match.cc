@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace kinescope::render {
 namespace {
@@ -10,16 +11,36 @@ namespace {
 using Eigen::Vector3f;
 using skin::Triangle;
 
-std::vector<std::vector<std::uint16_t>> TrianglesAround(const std::vector<Triangle>& triangles,
-                                                        std::size_t vertices) {
-  std::vector<std::vector<std::uint16_t>> around(vertices);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const std::uint16_t corner : triangles[i]) {
-      around[corner].push_back(static_cast<std::uint16_t>(i));
+// The triangles at each vertex.
+class TrianglesAround {
+ public:
+  TrianglesAround(const std::vector<Triangle>& triangles, std::size_t vertices)
+      : starts_(vertices + 1), all_(3 * triangles.size()) {
+    for (const Triangle& triangle : triangles) {
+      for (const std::uint16_t corner : triangle) ++starts_[corner];
+    }
+    // First the end of each vertex' triangles, which moves to their start.
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    for (std::size_t i = triangles.size(); i-- > 0;) {
+      for (const std::uint16_t corner : triangles[i]) {
+        all_[--starts_[corner]] = static_cast<std::uint32_t>(i);
+      }
     }
   }
-  return around;
-}
+
+  struct Range {
+    const std::uint32_t *first, *last;
+    const std::uint32_t* begin() const { return first; }
+    const std::uint32_t* end() const { return last; }
+  };
+  Range operator[](std::size_t vertex) const {
+    return {all_.data() + starts_[vertex], all_.data() + starts_[vertex + 1]};
+  }
+
+ private:
+  std::vector<std::size_t> starts_;  // in `all_`; and its size
+  std::vector<std::uint32_t> all_;
+};
 
 // For each vertex one of `used` that is near it over the surface; itself where no edge leads there.
 std::vector<std::uint16_t> NearestUsed(const std::vector<Triangle>& triangles,
@@ -29,10 +50,10 @@ std::vector<std::uint16_t> NearestUsed(const std::vector<Triangle>& triangles,
   std::vector<bool> is_found(vertices, false);
   for (std::size_t i = 0; i < vertices; ++i) nearest[i] = static_cast<std::uint16_t>(i);
   for (const std::uint16_t vertex : used) is_found[vertex] = true;
-  const auto around = TrianglesAround(triangles, vertices);
+  const TrianglesAround around(triangles, vertices);
   queue.reserve(vertices);
   for (std::size_t i = 0; i < queue.size(); ++i) {
-    for (const std::uint16_t triangle : around[queue[i]]) {
+    for (const std::uint32_t triangle : around[queue[i]]) {
       for (const std::uint16_t corner : triangles[triangle]) {
         if (is_found[corner]) continue;
         is_found[corner] = true;
@@ -56,19 +77,30 @@ Vector3f Inside(const Vector3f& a, const Vector3f& b, const Vector3f& c, const V
   return cut / cut.sum();
 }
 
+Eigen::MatrixX3f ToRows(const std::vector<Vector3f>& vectors) {
+  Eigen::MatrixX3f rows(static_cast<Eigen::Index>(vectors.size()), 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = vectors[i].transpose();
+  }
+  return rows;
+}
+
 }  // namespace
 
 NormalMatch::NormalMatch(const std::vector<Vector3f>& positions,
                          const std::vector<Triangle>& triangles,
                          const std::vector<Triangle>& coarse) {
-  for (const Triangle& triangle : coarse)
-    used_.insert(used_.end(), triangle.begin(), triangle.end());
-  std::sort(used_.begin(), used_.end());
-  used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
-  std::vector<int> places(positions.size(), -1);
-  for (std::size_t i = 0; i < used_.size(); ++i) places[used_[i]] = static_cast<int>(i);
-  const auto around = TrianglesAround(coarse, positions.size());
-  const std::vector<std::uint16_t> nearest = NearestUsed(triangles, used_, positions.size());
+  std::vector<int> places(positions.size(), -1);  // of `used_`; -1: none
+  for (const Triangle& triangle : coarse) {
+    for (const std::uint16_t corner : triangle) places[corner] = 0;
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (places[i] < 0) continue;
+    places[i] = static_cast<int>(used_.size());
+    used_.push_back(static_cast<std::uint16_t>(i));
+  }
+  const TrianglesAround around(coarse, positions.size());
+  nearest_ = NearestUsed(triangles, used_, positions.size());
   std::vector<Eigen::Triplet<float>> weights;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const int row = static_cast<int>(i);
@@ -79,7 +111,7 @@ NormalMatch::NormalMatch(const std::vector<Vector3f>& positions,
     float least = std::numeric_limits<float>::infinity();
     const Triangle* closest = nullptr;
     Vector3f shares;
-    for (const std::uint16_t index : around[nearest[i]]) {
+    for (const std::uint32_t index : around[nearest_[i]]) {
       const Triangle& t = coarse[index];
       const Vector3f &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
       const Vector3f inside = Inside(a, b, c, positions[i]);
@@ -103,10 +135,7 @@ NormalMatch::NormalMatch(const std::vector<Vector3f>& positions,
 }
 
 std::vector<Vector3f> NormalMatch::Coarse(const std::vector<Vector3f>& normals) const {
-  Eigen::MatrixX3f fine(static_cast<Eigen::Index>(normals.size()), 3);
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    fine.row(static_cast<Eigen::Index>(i)) = normals[i].transpose();
-  }
+  const Eigen::MatrixX3f fine = ToRows(normals);
   const Eigen::MatrixX3f solved = solver_.solve(Eigen::MatrixX3f(weights_.transpose() * fine));
   std::vector<Vector3f> coarse(used_.size());
   for (std::size_t i = 0; i < coarse.size(); ++i) {
@@ -115,6 +144,15 @@ std::vector<Vector3f> NormalMatch::Coarse(const std::vector<Vector3f>& normals) 
     coarse[i] = length > 0 ? Vector3f(normal / length) : normals[used_[i]];
   }
   return coarse;
+}
+
+std::vector<Vector3f> NormalMatch::Fine(const std::vector<Vector3f>& coarse) const {
+  const Eigen::MatrixX3f between = weights_ * ToRows(coarse);
+  std::vector<Vector3f> fine(nearest_.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    fine[i] = between.row(static_cast<Eigen::Index>(i)).transpose();
+  }
+  return fine;
 }
 
 }  // namespace kinescope::render

@@ -26,9 +26,16 @@ class NormalMatch {
   /// @param normals of the fine surface, unit
   /// @return at the vertices that coarse triangles use, in their order, unit
   std::vector<Eigen::Vector3f> Coarse(const std::vector<Eigen::Vector3f>& normals) const;
+  /// What normals at those vertices are in between, at all fine vertices; not unit.
+  std::vector<Eigen::Vector3f> Fine(const std::vector<Eigen::Vector3f>& coarse) const;
+
+  /// The fine vertices that coarse triangles use, ascending.
+  const std::vector<std::uint16_t>& used() const { return used_; }
+  /// For each fine vertex, the one of these that is near it over the surface.
+  const std::vector<std::uint16_t>& nearest() const { return nearest_; }
 
  private:
-  std::vector<std::uint16_t> used_;     // fine vertices of the coarse triangles, ascending
+  std::vector<std::uint16_t> used_, nearest_;
   Eigen::SparseMatrix<float> weights_;  // (fine vertices, used): interpolation
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<float>> solver_;
 };

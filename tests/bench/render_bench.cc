@@ -1,6 +1,6 @@
 // What a picture costs at 1280 x 720: drawing and reading back, with and without anti-aliasing,
 // with a standing and with a moving camera, and what it costs to encode it. CPU time counts all
-// threads.
+// threads. And what the skin of one body costs before it is drawn, on one thread.
 
 #include <benchmark/benchmark.h>
 #include <dlfcn.h>
@@ -10,11 +10,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "render/image/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "tests/render/test_scene.h"
+#include "urdf/kinematics.h"
+#include "urdf/skeleton.h"
+#include "urdf/skin/occlusion.h"
+#include "urdf/skin/person_skin.h"
+#include "urdf/skin/skin_template.h"
 
 namespace kinescope::render {
 namespace {
@@ -201,6 +207,32 @@ void H264(benchmark::State& run) {
   SetRate(run);
 }
 
+// All vertices of the whole skin: their places by the frames, the folds at elbows, hips and knees
+// (all bent, so that flesh meets), normals, and how much of the sky limbs cover.
+void PoseSkin(benchmark::State& run) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const skin::Build build;
+  const skin::PersonSkin person(skin::BuiltInSkin(), build, skeleton);
+  const std::vector<skin::LimbRun> limbs = skin::LimbRunsOf(skin::BuiltInSkin().weights);
+  urdf::JointAngles angles{};
+  for (const int joint : {urdf::jRightElbow, urdf::jLeftElbow, urdf::jRightHip, urdf::jLeftHip}) {
+    angles[urdf::At(joint)].y() = -2;
+  }
+  for (const int joint : {urdf::jRightKnee, urdf::jLeftKnee}) angles[urdf::At(joint)].y() = 2;
+  skin::PersonSkin::Surface surface;
+  std::vector<float> open_sky;
+  for (auto _ : run) {
+    angles[urdf::jT9T8].z() += 1e-4;
+    const urdf::LinkPoses links = urdf::ForwardKinematics(skeleton, {}, angles);
+    person.Pose(links, {}, surface);
+    skin::SetOpenSky(surface.positions, surface.normals, limbs,
+                     skin::CapsulesOf(skeleton, build, links), open_sky);
+    benchmark::DoNotOptimize(open_sky.data());
+  }
+  run.counters["vertices"] = static_cast<double>(open_sky.size());
+}
+
+BENCHMARK(PoseSkin)->Unit(benchmark::kMillisecond);
 BENCHMARK(DrawStandingCamera)
     ->ArgNames({"supersample", "overlays", "people", "by_size", "skin"})
     ->Args({1, 0, 1, 0, 0})
