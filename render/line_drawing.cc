@@ -7,17 +7,25 @@
 namespace kinescope::render {
 namespace {
 
-// px in a picture 720 px high; pt in print.
-constexpr double kOutlineWidth = 1.7, kBorderWidth = 0.9;
-constexpr double kOutlinePt = 0.8, kBorderPt = 0.4;
+struct Stroke {
+  LineKind kind;
+  double width;     // px in a picture 720 px high
+  double print_pt;  // in print
+  Ink Inks::*ink;
+};
+// From below.
+constexpr Stroke kStrokes[] = {
+    {LineKind::kBorder, 0.9, 0.4, &Inks::faint_text},
+    {LineKind::kFace, 1.0, 0.5, &Inks::text},
+    {LineKind::kCrease, 1.15, 0.55, &Inks::text},
+    {LineKind::kOutline, 1.7, 0.8, &Inks::text},
+};
 constexpr double kThinnest = 0.7;  // px
 
-double WidthOf(LineKind kind, const PictureSpec& spec) {
-  const bool is_outline = kind == LineKind::kOutline;
-  const double width =
-      spec.print.is_known()
-          ? (is_outline ? kOutlinePt : kBorderPt) * spec.print.PixelsPerPoint(spec.width)
-          : (is_outline ? kOutlineWidth : kBorderWidth) * spec.height / 720.0;
+double WidthOf(const Stroke& stroke, const PictureSpec& spec) {
+  const double width = spec.print.is_known()
+                           ? stroke.print_pt * spec.print.PixelsPerPoint(spec.width)
+                           : stroke.width * spec.height / 720.0;
   return std::max(width, kThinnest);
 }
 
@@ -25,10 +33,10 @@ double WidthOf(LineKind kind, const PictureSpec& spec) {
 
 void PaintLines(Painter& painter, const std::vector<DrawnLine>& lines, const PictureSpec& spec) {
   const Inks& inks = InksOf(spec);
-  for (const LineKind kind : {LineKind::kBorder, LineKind::kOutline}) {
-    const Ink& ink = kind == LineKind::kOutline ? inks.text : inks.faint_text;
+  for (const Stroke& stroke : kStrokes) {
     for (const DrawnLine& line : lines) {
-      if (line.kind == kind) painter.Polyline(line.points, WidthOf(kind, spec), ink);
+      if (line.kind != stroke.kind) continue;
+      painter.Polyline(line.points, WidthOf(stroke, spec), inks.*stroke.ink);
     }
   }
 }

@@ -11,6 +11,8 @@ namespace kinescope::render {
 
 enum class LineKind {
   kOutline,  // where a surface turns away from the viewer
+  kCrease,   // where parts of the body press against each other
+  kFace,     // brows, lids, nose, mouth
   kBorder,   // between the colours of the suit
 };
 
@@ -19,7 +21,7 @@ struct DrawnLine {
   LineKind kind = LineKind::kOutline;
 };
 
-/// In the ink of the texts; outlines over borders.
+/// In the ink of the texts; outlines over creases and face over borders.
 void PaintLines(Painter& painter, const std::vector<DrawnLine>& lines, const PictureSpec& spec);
 
 }  // namespace kinescope::render

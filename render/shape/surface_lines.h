@@ -6,13 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace kinescope::render {
+#include "render/shape/line_chain.h"
 
-/// `is_loop`: the last point is joined to the first.
-struct SurfaceLine {
-  std::vector<Eigen::Vector3f> points;  // as the surface, m
-  bool is_loop = false;
-};
+namespace kinescope::render {
 
 /// Where `values`, one per vertex and interpolated between them, are 0. On a closed surface all
 /// lines are loops. `triangles`: three vertices each.

@@ -6,11 +6,17 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kNearer = 0.012;    // m: lines are before the surface that they are on
-constexpr double kStep = 1.5;        // px between samples
-constexpr std::size_t kGap = 3;      // samples: shorter gaps in a line are closed,
-constexpr double kShortest = 0.008;  // of the picture's height: shorter lines are left out
-constexpr double kFlatness = 0.12;   // px, by which a drawn line may miss its samples
+// m: lines are before the surface that they are on, and outlines are next to it.
+constexpr double kNearer = 0.006, kOutlineNearer = 0.012;
+constexpr double kBeside = 0.0015;  // m, from an outline to the last triangle that is seen
+constexpr double kStep = 1.5;       // px between samples
+// Shorter gaps in a line are closed: samples, and of an outline m, less than a finger is wide.
+constexpr std::size_t kGap = 3;
+constexpr double kGapOfOutline = 0.008;
+// Shorter lines are left out: of the picture's height, and outlines of lips and knuckles, m.
+constexpr double kShortest = 0.008, kShortestOfFace = 0.003;
+constexpr double kSmallestOutline = 0.025;
+constexpr double kFlatness = 0.12;  // px, by which a drawn line may miss its samples
 
 using Point = std::pair<double, double>;
 
@@ -70,13 +76,23 @@ std::vector<Point> Simplified(const std::vector<Point>& points) {
 
 VisibleLines::VisibleLines(const std::vector<SpaceLine>& lines, const Camera& camera, int width,
                            int height)
-    : camera_(camera), shortest_(kShortest * height) {
-  const auto sample = [&](const Eigen::Vector3f& p) -> Sample {
-    const Projected at = Project(p.cast<double>(), camera, width, height);
-    return {at.x_px, at.y_px, at.depth_m - kNearer};
-  };
+    : camera_(camera) {
   for (const SpaceLine& each : lines) {
+    const bool is_outline = each.kind == LineKind::kOutline;
+    const double nearer = is_outline ? kOutlineNearer : kNearer;
     Track track{{}, each.kind, each.line.is_loop};
+    track.gap = kGap;
+    track.shortest = (each.kind == LineKind::kFace ? kShortestOfFace : kShortest) * height;
+    const auto sample = [&](const Eigen::Vector3f& p) -> Sample {
+      const Projected at = Project(p.cast<double>(), camera, width, height);
+      if (is_outline && at.depth_m >= camera.near_m) {
+        track.smallest = std::max(track.smallest, kSmallestOutline * at.px_per_m);
+        track.beside = std::max(track.beside, kBeside * at.px_per_m);
+        const double gap = std::min(kGapOfOutline * at.px_per_m / kStep, 1000.0);
+        track.gap = std::max(track.gap, static_cast<std::size_t>(gap));
+      }
+      return {at.x_px, at.y_px, at.depth_m - nearer};
+    };
     const auto& points = each.line.points;
     const std::size_t ends = points.size() + (each.line.is_loop ? 1 : 0);
     for (std::size_t i = 0; i < ends; ++i) {
@@ -99,10 +115,11 @@ VisibleLines::VisibleLines(const std::vector<SpaceLine>& lines, const Camera& ca
 
 void VisibleLines::Judge(const Tile& part, int supersample, const std::vector<float>& depth) {
   const int columns = part.width * supersample, rows = part.height * supersample;
-  const auto farthest_near = [&](int x, int y) {
+  const auto farthest_near = [&](int x, int y, int reach) {
     float farthest = 0;
-    for (int row = std::max(0, y - 1); row <= std::min(rows - 1, y + 1); ++row) {
-      for (int column = std::max(0, x - 1); column <= std::min(columns - 1, x + 1); ++column) {
+    for (int row = std::max(0, y - reach); row <= std::min(rows - 1, y + reach); ++row) {
+      const int last = std::min(columns - 1, x + reach);
+      for (int column = std::max(0, x - reach); column <= last; ++column) {
         farthest = std::max(
             farthest, depth[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                             static_cast<std::size_t>(column)]);
@@ -110,13 +127,17 @@ void VisibleLines::Judge(const Tile& part, int supersample, const std::vector<fl
     }
     return MetresOf(farthest, camera_);
   };
+  constexpr int kFarthest = 8;  // samples
   for (Track& track : tracks_) {
+    const int reach =
+        std::clamp(static_cast<int>(std::min(supersample * track.beside, 100.0)), 1, kFarthest);
     for (Sample& sample : track.samples) {
       const double x = (sample.x - part.x) * supersample;
       const double y = rows - (sample.y - part.y) * supersample;
       const bool is_inside = x >= 0 && x < columns && y >= 0 && y < rows;
       if (!is_inside || sample.depth_m < camera_.near_m) continue;
-      sample.is_seen = sample.depth_m <= farthest_near(static_cast<int>(x), static_cast<int>(y));
+      sample.is_seen =
+          sample.depth_m <= farthest_near(static_cast<int>(x), static_cast<int>(y), reach);
     }
   }
 }
@@ -132,9 +153,14 @@ std::vector<DrawnLine> VisibleLines::Take() const {
     std::vector<Point> run;
     std::size_t hidden = 0;
     const auto end_run = [&] {
-      double length = 0;
-      for (std::size_t i = 1; i < run.size(); ++i) length += Distance(run[i - 1], run[i]);
-      if (run.size() > 1 && length >= shortest_) lines.push_back({Simplified(run), track.kind});
+      double length = 0, extent = 0;
+      for (std::size_t i = 1; i < run.size(); ++i) {
+        length += Distance(run[i - 1], run[i]);
+        extent = std::max(extent, Distance(run[0], run[i]));
+      }
+      if (run.size() > 1 && length >= track.shortest && extent >= track.smallest) {
+        lines.push_back({Simplified(run), track.kind});
+      }
       run.clear();
     };
     std::vector<Point> gap;
@@ -147,7 +173,7 @@ std::vector<DrawnLine> VisibleLines::Take() const {
         hidden = 0;
         continue;
       }
-      if (!run.empty() && ++hidden <= kGap) {
+      if (!run.empty() && ++hidden <= track.gap) {
         gap.emplace_back(sample.x, sample.y);
         continue;
       }

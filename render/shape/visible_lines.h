@@ -40,9 +40,12 @@ class VisibleLines {
     std::vector<Sample> samples;
     LineKind kind;
     bool is_loop;
+    double smallest = 0;  // px: a part that does not reach as far is left out
+    double beside = 0;    // px: as far next to the line, a surface may be behind it
+    std::size_t gap = 0;  // samples: a part that is hidden for less is seen
+    double shortest = 0;  // px: a shorter part is left out
   };
   Camera camera_;
-  double shortest_;  // px, of a line that is drawn
   std::vector<Track> tracks_;
 };
 

@@ -155,30 +155,7 @@ void SkinActor::AddTo(PictureRegion& region) const {
 }
 
 void SkinActor::AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
-  if (!is_visible_) return;
-  const std::vector<std::uint32_t> triangles = Indices(shown_->surface->triangles());
-  const skin::PersonSkin::Surface& surface = shown_->surface->surface();
-  std::vector<float> values(surface.positions.size());
-  const auto add = [&](LineKind kind) {
-    for (SurfaceLine& line : ZeroLines(surface.positions, triangles, values)) {
-      lines.push_back({std::move(line), kind});
-    }
-  };
-  const Eigen::Vector3f eye = camera.position.cast<float>();
-  const Eigen::Vector3f back = (camera.position - camera.target).cast<float>();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Eigen::Vector3f to_eye =
-        camera.is_orthographic() ? back : Eigen::Vector3f(eye - surface.positions[i]);
-    values[i] = surface.normals[i].dot(to_eye);
-  }
-  add(LineKind::kOutline);
-  const std::vector<skin::Borders>& suit = shown_->surface->suit();
-  if (suit.empty()) return;
-  for (float skin::Borders::*const border : {&skin::Borders::trousers, &skin::Borders::bare,
-                                             &skin::Borders::shoes, &skin::Borders::bands}) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = suit[i].*border;
-    add(LineKind::kBorder);
-  }
+  if (is_visible_) shown_->surface->AddLines(camera, lines);
 }
 
 std::vector<vtkActor*> SkinActor::actors() {

@@ -32,7 +32,7 @@ class SkinActor {
   std::vector<vtkActor*> actors();
   /// Of the newest Update, if it is visible.
   void AddTo(PictureRegion& region) const;
-  /// Of the newest Update: outlines as seen by `camera`, and the borders of the suit.
+  /// Of the newest Update: see SkinLines.
   void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const;
   /// Of the newest Update: what casts shadows.
   const skin::Capsules& capsules() const { return capsules_; }

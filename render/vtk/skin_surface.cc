@@ -32,6 +32,7 @@ SkinSurface::SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, FineNor
                          const skin::Build& build, const PersonModel& model)
     : skin_(std::move(skin)),
       fine_normals_(std::move(fine_normals)),
+      build_(build),
       person_(*skin_, build, model.human.skeleton, GlovesOf(model.human)),
       stature_(model.human.skeleton.height),
       limbs_(skin::LimbRunsOf(skin_->weights)) {
@@ -62,6 +63,11 @@ std::vector<vtkFloatArray*> SkinSurface::attributes(bool has_loads) {
   if (!has_loads) return {paint_, open_sky_};
   if (regions_->GetNumberOfTuples() == 0) FindRegions();
   return {paint_, open_sky_, regions_};
+}
+
+void SkinSurface::AddLines(const Camera& camera, std::vector<SpaceLine>& lines) {
+  if (!lines_) lines_ = std::make_unique<SkinLines>(*skin_, build_, person_.rest(), suit_);
+  lines_->AddTo(lines, surface_, camera);
 }
 
 void SkinSurface::FindRegions() {

@@ -10,6 +10,7 @@
 
 #include "core/scene_state.h"
 #include "render/shape/fine_normals.h"
+#include "render/shape/skin_lines.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
@@ -32,6 +33,8 @@ class SkinSurface {
   const std::vector<skin::Triangle>& triangles() const { return skin_->triangles; }
   /// Of the suit at each vertex; empty: vertices have colours.
   const std::vector<skin::Borders>& suit() const { return suit_; }
+  /// As moved: see SkinLines.
+  void AddLines(const Camera& camera, std::vector<SpaceLine>& lines);
   /// As moved.
   const skin::PersonSkin::Surface& surface() const { return surface_; }
 
@@ -40,6 +43,7 @@ class SkinSurface {
 
   const std::shared_ptr<const skin::SkinTemplate> skin_;
   const FineNormals fine_normals_;
+  const skin::Build build_;
   const skin::PersonSkin person_;
   const double stature_;
   const std::vector<skin::LimbRun> limbs_;
@@ -47,8 +51,9 @@ class SkinSurface {
   skin::PersonSkin::Surface surface_;
   std::vector<float> open_;
   vtkNew<vtkFloatArray> positions_, normals_, paint_, open_sky_;
-  vtkNew<vtkFloatArray> regions_;  // empty until loads are shown
-  std::vector<urdf::Pose> shown_;  // the poses of `surface_`
+  vtkNew<vtkFloatArray> regions_;     // empty until loads are shown
+  std::unique_ptr<SkinLines> lines_;  // null until lines are drawn
+  std::vector<urdf::Pose> shown_;     // the poses of `surface_`
 };
 
 }  // namespace kinescope::render

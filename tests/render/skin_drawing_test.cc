@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 #include "tests/urdf/rig/rig_samples.h"
+#include "tests/urdf/skin_postures.h"
 #include "tests/worn.h"
 #include "urdf/rig/rig.h"
 #include "urdf/rig/rigged_skin.h"
@@ -251,6 +252,74 @@ TEST_F(SkinDrawing, OfLinesHasThemAsVectors) {
   EXPECT_GT(paths(lines), paths(none) + 10);
   EXPECT_LT(lines.size(), 300'000u);
   EXPECT_EQ(lines.find("<image"), std::string::npos);
+}
+
+// From the right, at twice the size, so that all strokes have widths of their own.
+class Creases : public SkinDrawing {
+ protected:
+  Creases() {
+    spec_.width = spec_.height = 2 * kHeight;
+    spec_.look.style = Style::kLine;
+    spec_.parts = {};
+    camera_.position = {0, -4, 1};
+    camera_.target = {0, 0, 1};
+  }
+  static SceneState WithKneeAt(double degrees) {
+    SceneState state = Person();
+    urdf::LinkPoses& links = state.people[0].links;
+    links = skin::TurnedAt(links, urdf::jRightKnee, Eigen::Vector3d::UnitY(), degrees);
+    return state;
+  }
+  int CountIn(const SceneState& state) {
+    renderer_->Render(state, camera_, spec_);
+    const std::string layer = renderer_->OverlayLayer(state, camera_, spec_, LayerFormat::kSvg);
+    int count = 0;
+    for (std::size_t at = 0; (at = layer.find("stroke-width:1.53", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  }
+  Camera camera_;
+};
+
+TEST_F(Creases, AreVectorsWhereTheCalfOfABentKneeMeetsTheThigh) {
+  spec_.lines = false;
+  const int of_arms = CountIn(WithKneeAt(0));  // which hang beside the trunk
+  EXPECT_EQ(CountIn(WithKneeAt(45)), of_arms);
+  EXPECT_GT(CountIn(WithKneeAt(140)), of_arms);
+}
+
+TEST_F(Creases, AreDrawnInThePicture) {
+  const Rgb ink = {0.13, 0.15, 0.19};
+  const SceneState state = WithKneeAt(140);
+  const Image drawn = renderer_->Render(state, camera_, spec_);
+  // Of the fold, 2 cm behind the knee, where no outline is.
+  const urdf::Pose& knee = state.people[0].links[urdf::kRightLowerLeg];
+  const Projected at = Project(knee.position, camera_, spec_.width, spec_.height);
+  int dark = 0;
+  for (int y = static_cast<int>(at.y_px) - 60; y < static_cast<int>(at.y_px) + 60; ++y) {
+    const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(spec_.width) +
+                               static_cast<std::size_t>(at.x_px - 0.09 * at.px_per_m));
+    const Rgb pixel = {drawn.rgba[i] / 255.0, drawn.rgba[i + 1] / 255.0, drawn.rgba[i + 2] / 255.0};
+    dark += ColorDifference(pixel, ink) < 40 ? 1 : 0;
+  }
+  EXPECT_GE(dark, 1);
+}
+
+// Brows, lids, nose, mouth.
+TEST_F(Creases, AreAccompaniedByTheLinesOfAFaceThatIsLargeEnough) {
+  spec_.lines = false;
+  const auto strokes = [&](double away) {
+    camera_ = FrontCamera();
+    camera_.position.x() = away;
+    renderer_->Render(Person(), camera_, spec_);
+    const std::string layer = renderer_->OverlayLayer(Person(), camera_, spec_, LayerFormat::kSvg);
+    int count = 0;
+    for (std::size_t at = 0; (at = layer.find("stroke-width:1.33", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(strokes(4), 7);
+  EXPECT_EQ(strokes(12), 0);
 }
 
 TEST(SuitColors, AreFarFromEveryLoadClass) {

@@ -11,6 +11,16 @@ namespace {
 
 using Eigen::Vector3d;
 
+// How far a point (left side) is inside of the collar, m: an ellipsoid around the lower neck, which
+// crosses neck and shoulders at right angles, so that their muscles do not show in the border.
+double AboveCollar(const Vector3d& p, const Vector3d& neck) {
+  // m, for a person of kReferenceHeight.
+  constexpr double kRadius = 0.1155, kForward = 0.030, kUp = 0.080, kNarrow = 1.25;
+  const double up = p.z() - neck.z() - kUp;
+  const Vector3d away(p.x() - kForward, kNarrow * p.y(), std::min(up, 0.0));
+  return kRadius - away.norm() + std::max(up, 0.0);
+}
+
 // Whether arm or hand carry most of the vertex.
 bool IsOfArm(const VertexWeights& vertex) {
   int of_arm = 0;
@@ -26,9 +36,9 @@ bool IsOfArm(const VertexWeights& vertex) {
 }  // namespace
 
 std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build) {
-  // m, for a person of kReferenceHeight: over the hips, around the neck, above the wrist, above the
+  // m, for a person of kReferenceHeight: over the hips, above the wrist, above the
   // ankle, over the hips, below the shoulder, and half a band's width.
-  constexpr double kBelt = 0.088, kCollar = 0.006, kCuff = 0.012, kShoeTop = 0.050, kChest = 0.330,
+  constexpr double kBelt = 0.088, kCuff = 0.012, kShoeTop = 0.050, kChest = 0.330,
                    kUpperArm = 0.165, kHalfBand = 0.014;
   const BindPose bind = BindPoseOf(urdf::DefaultSkeleton());
   const std::vector<Eigen::Vector3f> positions = skin.Blend(build);
@@ -44,11 +54,10 @@ std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build) {
     const Vector3d in_arm = InLink(bind.links[urdf::kLeftUpperArm], p);
     const Vector3d in_hand = InLink(bind.links[urdf::kLeftHand], p);
     const Vector3d in_foot = p - bind.links[urdf::kLeftFoot].position;
-    const double above_collar =
-        p.z() - bind.links[urdf::kNeck].position.z() + 0.55 * p.x() - kCollar;
     Borders borders;
     borders.trousers = limited(is_arm ? -1 : kBelt - p.z());
-    borders.bare = limited(is_arm ? -in_hand.z() + kCuff : above_collar - 0.35 * p.y());
+    borders.bare =
+        limited(is_arm ? -in_hand.z() + kCuff : AboveCollar(p, bind.links[urdf::kNeck].position));
     borders.shoes = limited(is_arm ? -1 : kShoeTop - in_foot.z());
     borders.bands =
         limited(kHalfBand - std::abs(is_arm ? -in_arm.z() - kUpperArm : p.z() - kChest));

@@ -94,9 +94,9 @@ class SeenLines : public ::testing::Test {
     camera_.far_m = 3;
   }
 
-  std::vector<DrawnLine> Seen(const std::vector<Vector3f>& points,
-                              const std::vector<float>& depth) const {
-    VisibleLines lines({{{points, false}, LineKind::kOutline}}, camera_, 100, 100);
+  std::vector<DrawnLine> Seen(const std::vector<Vector3f>& points, const std::vector<float>& depth,
+                              LineKind kind = LineKind::kOutline) const {
+    VisibleLines lines({{{points, false}, kind}}, camera_, 100, 100);
     // In two parts, as a large picture is.
     const std::size_t half = depth.size() / 2;
     lines.Judge({0, 50, 100, 50}, 1, {depth.begin(), depth.begin() + static_cast<long>(half)});
@@ -133,6 +133,13 @@ TEST_F(SeenLines, EndWhereSomethingIsBeforeThem) {
 TEST_F(SeenLines, AreSeenOnTheSurfaceThatTheyAreOn) {
   EXPECT_EQ(Seen(across_, std::vector<float>(10000, 0.5f)).size(), 1u);
   EXPECT_EQ(Seen(across_, std::vector<float>(10000, 0.48f)).size(), 0u);
+}
+
+TEST_F(SeenLines, AreNoOutlinesOfKnuckles) {
+  const std::vector<float> empty(10000, 1);
+  const std::vector<Vector3f> small = {{0, 0.01f, 0.3f}, {0, -0.01f, 0.3f}};
+  EXPECT_TRUE(Seen(small, empty).empty());
+  EXPECT_EQ(Seen(small, empty, LineKind::kCrease).size(), 1u);
 }
 
 TEST_F(SeenLines, AreNoneOutsideThePicture) {
