@@ -185,6 +185,10 @@ void LegendContent::Add(const LegendContent& other) {
   }
 }
 
+LegendRow GroundReactionRow() {
+  return {{kCopColor, 1}, 0, "ground reaction force", "1 m/kN", LegendRow::Symbol::kArrow};
+}
+
 LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
   LegendContent content;
   if (HasOnlyRobots(state)) return content;
@@ -204,15 +208,14 @@ LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
     add_class(LoadClass::kLow, 6.0, "low", "≤ " + medium);
     add_class(LoadClass::kMedium, 7.2, "medium", "≤ " + high);
     add_class(LoadClass::kHigh, 8.4, "high", "> " + high);
-    add_class(LoadClass::kUnknown, 4.8, "no data", "–");
+    add_class(LoadClass::kUnknown, 4.8, "unknown", "–");
   }
   if (look.Shows(ScenePart::kCom)) content.rows.push_back({{kComColor, 1}, 5, "centre of mass"});
   if (look.Shows(ScenePart::kCop)) {
     content.rows.push_back({{kCopColor, 1}, 5, "centre of pressure"});
   }
   if (look.Shows(ScenePart::kForces) && HasForceOnAFoot(state)) {
-    content.rows.push_back(
-        {{kCopColor, 1}, 0, "force on a foot", "1 m/kN", LegendRow::Symbol::kArrow});
+    content.rows.push_back(GroundReactionRow());
   }
   AddTrailsAndGhosts(look, content.rows);
   AddThings(state, look, content.rows);

@@ -48,6 +48,9 @@ struct LegendContent {
   void Add(const LegendContent& other);
 };
 
+/// Of the arrows on the feet.
+LegendRow GroundReactionRow();
+
 /// Of the elements that `look` shows and `state` contains. Empty if there are only robots, whose
 /// pictures have no legend.
 LegendContent LegendOf(const SceneState& state, const SceneLook& look);

@@ -25,14 +25,31 @@ struct LegendLayout {
   double width, height;
 };
 
-LegendLayout MeasureLegend(const OverlaySizes& page, std::size_t rows, std::size_t notes) {
+// A long name has its range beside it if the picture is wide enough.
+double WidthWithRanges(const LegendLayout& layout, const OverlaySizes& page,
+                       const std::vector<LegendRow>& rows) {
+  double width = layout.width;
+  for (const LegendRow& row : rows) {
+    if (row.is_addition()) continue;
+    Font& font = page.fonts.regular;
+    const double texts =
+        font.Width(row.name, layout.font) + font.Width(row.range, layout.font) + 0.8 * layout.font;
+    const double wide = 2 * layout.pad + layout.column + texts;
+    if (wide <= kWidestLegend * page.width) width = std::max(width, wide);
+  }
+  return width;
+}
+
+LegendLayout MeasureLegend(const OverlaySizes& page, const std::vector<LegendRow>& rows,
+                           std::size_t notes) {
   OverlayFonts& f = page.fonts;
   LegendLayout layout{page.FontPx(kSmallSize), page.Px(21), page.Px(12), page.Px(24), 0, 0};
   layout.width = 2 * layout.pad + layout.column +
                  std::max(f.regular.Width("centre of pressure", layout.font),
                           f.bold.Width(kLegendTitle, layout.font) - layout.column);
+  layout.width = WidthWithRanges(layout, page, rows);
   const double lines =
-      1.0 + static_cast<double>(rows) + static_cast<double>(notes) + (notes > 0 ? 0.5 : 0.0);
+      1.0 + static_cast<double>(rows.size()) + static_cast<double>(notes) + (notes > 0 ? 0.5 : 0.0);
   layout.height = 2 * layout.pad + layout.line * lines - page.Px(4);
   return layout;
 }
@@ -46,8 +63,7 @@ std::vector<LegendRow> RowsWithRoom(const LegendContent& content, const OverlayS
   std::vector<LegendRow> rows = content.rows;
   std::size_t hidden = 0;
   while (!rows.empty() && rows.back().is_addition() &&
-         MeasureLegend(page, rows.size(), content.notes.size()).height >
-             kHighestLegend * page.bottom) {
+         MeasureLegend(page, rows, content.notes.size()).height > kHighestLegend * page.bottom) {
     rows.pop_back();
     ++hidden;
   }
@@ -144,14 +160,14 @@ LegendRoom RoomOfLegend(const OverlaySizes& sizes, const SceneLook& look,
   constexpr std::size_t kNotes = 2;
   LegendContent content = LegendOf({}, look);
   if (look.Shows(ScenePart::kForces)) {
-    content.rows.push_back({{}, 0, "", "", LegendRow::Symbol::kArrow});
+    content.rows.push_back(GroundReactionRow());
   }
   if (content.rows.empty() && additions.rows.empty()) return {};
   content.notes.resize(kNotes);
   for (const LegendRow& row : additions.rows) {
     if (row.is_addition()) content.rows.push_back(row);
   }
-  const LegendLayout layout = MeasureLegend(sizes, RowsWithRoom(content, sizes).size(), kNotes);
+  const LegendLayout layout = MeasureLegend(sizes, RowsWithRoom(content, sizes), kNotes);
   const double margins = 2 * sizes.Px(kMargin);
   if (!IsWide(layout, sizes)) return {layout.width + margins, layout.height + margins};
   return {sizes.width, kShortLine * sizes.FontPx(kSmallSize) + margins};
@@ -161,7 +177,7 @@ void PaintLegend(OverlayPage& page, const LegendContent& content,
                  const std::array<double, 2>& class_limits) {
   const std::vector<LegendRow> rows = RowsWithRoom(content, page);
   if (rows.empty()) return;
-  const LegendLayout layout = MeasureLegend(page, rows.size(), content.notes.size());
+  const LegendLayout layout = MeasureLegend(page, rows, content.notes.size());
   if (IsWide(layout, page)) {
     if (content.has_classes()) PaintShortLegend(page, class_limits);
     return;
@@ -176,11 +192,18 @@ void PaintLegend(OverlayPage& page, const LegendContent& content,
   for (const LegendRow& row : rows) {
     baseline += layout.line;
     PaintLegendSymbol(page, row, text_left + 0.36 * layout.column, baseline - 0.36 * size);
-    const double range_left = right - f.regular.Width(row.range, size);
+    // A name that needs the room of its range is the more important one.
+    const double whole = right - text_left - layout.column;
+    const bool has_range =
+        row.is_addition() ||
+        f.regular.Width(row.name, size) + f.regular.Width(row.range, size) <= whole;
+    const double range_left = has_range ? right - f.regular.Width(row.range, size) : right;
     const double room = range_left - text_left - layout.column;
     page.canvas.Text(text_left + layout.column, baseline, Shorten(row.name, f.regular, size, room),
                      f.regular, size, page.inks.text);
-    page.canvas.Text(range_left, baseline, row.range, f.regular, size, page.inks.text);
+    if (has_range) {
+      page.canvas.Text(range_left, baseline, row.range, f.regular, size, page.inks.text);
+    }
   }
   baseline += 0.5 * layout.line;
   for (const std::string& note : content.notes) {

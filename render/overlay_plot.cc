@@ -95,7 +95,7 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
               bool has_scale) {
   const int size = page.FontPx(kSmallSize);
   const LoadPoint* now = PointAt(curve, now_secs);
-  char value[32] = "no data";
+  char value[32] = "unknown";
   if (now != nullptr && std::isfinite(now->ratio)) {
     std::snprintf(value, sizeof value, "%.0f %%", 100 * now->ratio);
   }

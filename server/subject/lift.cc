@@ -18,9 +18,10 @@ constexpr double kToeIn = 12 * kDegree;  // of the hands round the box
 
 struct LiftStance {
   double x, y, toe_out;
+  double knee_out;  // share of knees_out_; the right leg, which carries more, gives way less
 };
 constexpr std::array<LiftStance, 2> kStance = {
-    {{-0.03, -0.120, -25 * kDegree}, {0.03, 0.120, 22 * kDegree}}};
+    {{-0.03, -0.120, -25 * kDegree, 0.8}, {0.03, 0.120, 22 * kDegree, 1.2}}};
 
 Curve Schedule(std::vector<Curve::Key> keys) { return {kPeriodSecs, std::move(keys)}; }
 
@@ -34,7 +35,7 @@ class Lift final : public MotionGenerator {
 
  private:
   void PlaceTrunk(const Jet& time, Posture& posture) const;
-  void PlaceLeg(Side side, Posture& posture) const;
+  void PlaceLeg(Side side, const Jet& time, Posture& posture) const;
   void PlaceArm(Side side, const Jet& time, Posture& posture) const;
   JetVector BoxAt(const Jet& time) const;
 
@@ -46,9 +47,9 @@ class Lift final : public MotionGenerator {
   const Curve pelvis_x_ = Schedule({{0.1, 0.02}, {1.5, -0.235}, {2.0, -0.225}, {3.2, 0.0},
                                     {3.9, -0.01}, {4.6, -0.01}, {5.1, 0.0}, {6.3, -0.225},
                                     {6.65, -0.235}, {7.75, 0.02}});
-  const Curve pelvis_y_ = Schedule({{0.1, 0.0}, {1.5, -0.048}, {2.0, -0.05}, {3.2, 0.0},
-                                    {3.9, 0.02}, {4.6, 0.025}, {5.1, 0.0}, {6.3, -0.04},
-                                    {6.65, -0.04}, {7.75, 0.0}});
+  const Curve pelvis_y_ = Schedule({{0.1, 0.0}, {1.5, -0.035}, {2.0, -0.035}, {3.2, 0.0},
+                                    {3.9, 0.02}, {4.6, 0.025}, {5.1, 0.0}, {6.3, -0.03},
+                                    {6.65, -0.03}, {7.75, 0.0}});
   const Curve pelvis_z_ = Schedule({{0.1, 0.975}, {1.5, 0.500}, {1.95, 0.485}, {3.1, 0.965},
                                     {5.0, 0.965}, {6.3, 0.495}, {6.6, 0.490}, {7.7, 0.975}});
   const Curve pelvis_pitch_ = Schedule({{0.1, 2}, {1.4, 37}, {2.0, 38}, {3.2, 2}, {3.9, 13},
@@ -73,13 +74,19 @@ class Lift final : public MotionGenerator {
   const Curve box_turn_ = Schedule({{0.1, 0}, {3.1, 0}, {3.95, 30}, {4.55, 30}, {5.25, 0}});
   const Curve box_z_ = Schedule({{0.1, 0.15}, {1.95, 0.15}, {3.1, 1.08}, {3.4, 1.12}, {3.95, 1.40},
                                  {4.55, 1.40}, {5.05, 1.10}, {6.4, 0.15}});
-  const Curve hands_on_box_ = Schedule({{0.95, 0}, {1.75, 1}, {6.5, 1}, {7.05, 0}});
+  const Curve hands_on_box_ = Schedule({{1.05, 0}, {1.75, 1}, {6.5, 1}, {7.0, 0}});
   // The hand's pitch: 0 fingers down, -90 fingers forward.
-  const Curve hand_pitch_ = Schedule({{0.2, -20}, {1.6, -40}, {2.0, -45}, {2.8, -68}, {3.2, -95},
+  const Curve hand_pitch_ = Schedule({{0.1, -20}, {0.6, -40}, {1.6, -42}, {2.0, -45}, {2.8, -68}, {3.2, -95},
                                       {3.95, -106}, {4.55, -106}, {5.05, -95}, {5.5, -65},
-                                      {6.3, -48}, {6.6, -44}, {7.4, -20}});
-  const Curve elbow_swivel_ = Schedule({{0.2, 12}, {1.6, 20}, {2.0, 20}, {3.2, 20}, {4.0, 12},
-                                        {4.55, 12}, {5.1, 20}, {6.3, 20}, {6.6, 20}, {7.6, 12}});
+                                      {6.3, -48}, {6.6, -44}, {7.25, -40}, {7.75, -20}});
+  // Arms reach between the knees, which give way to the sides; on the way, hands are before them.
+  const Curve elbow_swivel_ = Schedule({{0.2, 12}, {1.0, -6}, {1.9, -9}, {2.3, -10}, {2.45, -10},
+                                        {3.2, 20}, {4.0, 12}, {4.55, 12}, {5.1, 20}, {5.8, -10},
+                                        {6.1, -10}, {6.5, -8}, {6.9, -6}, {7.6, 12}});
+  const Curve knees_out_ = Schedule({{0.1, 0}, {0.8, 11}, {1.9, 11}, {2.25, 15}, {2.4, 15},
+                                     {3.1, 0}, {5.2, 0}, {5.85, 15}, {6.1, 15}, {6.5, 11},
+                                     {7.1, 11}, {7.7, 0}});
+  const Curve hands_ahead_ = Schedule({{0.15, 0}, {0.65, 1}, {7.2, 1}, {7.75, 0}});
   const Curve looks_at_box_ = Schedule({{0.0, 0}, {0.8, 1}, {6.9, 1}, {7.8, 0}});
   // clang-format on
 };
@@ -88,7 +95,7 @@ Posture Lift::PoseAt(const Jet& time) const {
   Posture posture(skeleton_);
   PlaceTrunk(time, posture);
   for (const Side side : {urdf::kRight, urdf::kLeft}) {
-    PlaceLeg(side, posture);
+    PlaceLeg(side, time, posture);
     PlaceArm(side, time, posture);
   }
   const JetVector ahead = Constant(scale_ * Vector3d(3.0, 0.0, 1.2));
@@ -112,12 +119,13 @@ void Lift::PlaceTrunk(const Jet& time, Posture& posture) const {
   }
 }
 
-void Lift::PlaceLeg(Side side, Posture& posture) const {
+void Lift::PlaceLeg(Side side, const Jet& time, Posture& posture) const {
   const LiftStance& stance = kStance[side];
   const int foot = side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot;
   const JetVector ankle =
       Constant({scale_ * stance.x, scale_ * stance.y, -skeleton_.heel_in_foot[side].z()});
-  posture.ReachWithLeg(side, ankle, stance.toe_out);
+  posture.ReachWithLeg(side, ankle, stance.toe_out,
+                       stance.knee_out * kDegree * knees_out_.At(time));
   posture.Orient(foot, TurnZ(stance.toe_out));
   posture.Orient(foot + 1, TurnZ(stance.toe_out));
 }
@@ -143,7 +151,9 @@ void Lift::PlaceArm(Side side, const Jet& time, Posture& posture) const {
   const JetVector at_box = grip + world_from_hand * Constant({0, 0, scale_ * kGripBelowWrist});
   const JetVector shoulder =
       posture.PointOn(girdle, skeleton_.origin_in_parent[static_cast<std::size_t>(girdle) + 1]);
-  const JetVector hanging = shoulder + Constant(scale_ * Vector3d(0.05, left * 0.05, -0.533));
+  const Jet ahead = hands_ahead_.At(time);
+  const JetVector hanging = shoulder + Constant(scale_ * Vector3d(0.05, left * 0.05, -0.533)) +
+                            ahead * Constant(scale_ * Vector3d(0.27, left * -0.05, 0.14));
   posture.ReachWithArm(side, hanging + on_box * JetVector(at_box - hanging), world_from_hand,
                        kDegree * elbow_swivel_.At(time));
 }

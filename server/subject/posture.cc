@@ -68,13 +68,15 @@ void Posture::Turn(int segment, const JetQuaternion& parent_from_link) {
   Orient(segment, parent * parent_from_link);
 }
 
-void Posture::ReachWithLeg(Side side, const JetVector& ankle, const Jet& heading) {
+void Posture::ReachWithLeg(Side side, const JetVector& ankle, const Jet& heading,
+                           const Jet& knee_out) {
   const int thigh = side == urdf::kRight ? urdf::kRightUpperLeg : urdf::kLeftUpperLeg;
   const auto& origins = skeleton_.origin_in_parent;
   const JetQuaternion facing = TurnZ(heading);
   const JetVector to_ankle = facing.conjugate() * JetVector(ankle - OriginOf(thigh));
-  const LimbTurns turns =
-      Reach(to_ankle, origins[Index(thigh + 1)].norm(), origins[Index(thigh + 2)].norm(), 1.0, 0.0);
+  const double outwards = side == urdf::kRight ? -1 : 1;
+  const LimbTurns turns = Reach(to_ankle, origins[Index(thigh + 1)].norm(),
+                                origins[Index(thigh + 2)].norm(), 1.0, outwards * knee_out);
   Orient(thigh, facing * turns.upper);
   Orient(thigh + 1, facing * turns.lower);
 }

@@ -23,8 +23,10 @@ class Posture {
   void Turn(int segment, const JetQuaternion& parent_from_link);
 
   /// Places thigh and shank so that the ankle is at `ankle`; the knee bends in the vertical plane
-  /// of `heading` (about z). @pre the leg reaches it without being fully extended
-  void ReachWithLeg(urdf::Side side, const JetVector& ankle, const Jet& heading);
+  /// of `heading` (about z), turned outwards by `knee_out` about the line from hip to ankle. @pre
+  /// the leg reaches it without being fully extended
+  void ReachWithLeg(urdf::Side side, const JetVector& ankle, const Jet& heading,
+                    const Jet& knee_out = 0.0);
 
   /// Places upper arm and forearm so that the wrist is at `wrist`, and the hand with the given
   /// orientation. The elbow points back and down, rotated outwards by `swivel`; the forearm takes

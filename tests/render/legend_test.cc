@@ -199,7 +199,7 @@ void ExpectBesideTheScene(PictureSpec spec) {
       EXPECT_FALSE(overlaps) << place.text << " and " << other.text;
     }
   }
-  EXPECT_THAT(texts, IsSupersetOf({"low", "≤ 30 %", "no data", "path: centre of mass", "N-pose"}));
+  EXPECT_THAT(texts, IsSupersetOf({"low", "≤ 30 %", "unknown", "path: centre of mass", "N-pose"}));
 }
 
 TEST(LegendPlace, IsBesideTheSceneAndWithinThePicture) {

@@ -90,10 +90,10 @@ TEST(OverlayLegend, ExplainsForceArrowsIfAForceActsOnAFoot) {
   foot = {};
   foot.force = {0, 0, 400};
   state.people[0].forces.feet[1] = {};
-  EXPECT_THAT(NamesOf(LegendOf(state, look).rows), Not(Contains("force on a foot")));
+  EXPECT_THAT(NamesOf(LegendOf(state, look).rows), Not(Contains("ground reaction force")));
   foot.touches_floor = true;
   const std::vector<LegendRow> rows = LegendOf(state, look).rows;
-  EXPECT_EQ(rows.back().name, "force on a foot");
+  EXPECT_EQ(rows.back().name, "ground reaction force");
   EXPECT_EQ(rows.back().symbol, LegendRow::Symbol::kArrow);
 }
 

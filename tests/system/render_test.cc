@@ -382,7 +382,7 @@ TEST_F(RenderCommand, MakesAJournalFigureWhoseTextsAreReadableOnAnA4Page) {
   EXPECT_GT(page.count, 15);
   EXPECT_GE(page.least_pt, kSmallestPt - 0.01);
   const ProgramResult text = RunProgram({"/usr/bin/pdftotext", Path("a4.pdf"), "-"});
-  EXPECT_THAT(text.out, AllOf(HasSubstr("1.3 s"), HasSubstr("Joint load"), HasSubstr("no data")));
+  EXPECT_THAT(text.out, AllOf(HasSubstr("1.3 s"), HasSubstr("Joint load"), HasSubstr("unknown")));
   const ProgramResult images = RunProgram({"/usr/bin/pdfimages", "-list", Path("a4.pdf")});
   EXPECT_THAT(images.out, HasSubstr("945")) << "80 mm at 300 dpi: " << images.out;
   // The PNG beside it is the same figure.

@@ -16,8 +16,9 @@ namespace kinescope::app {
 
 using Json = nlohmann::ordered_json;
 
-/// 2: inputs are those that the options read. 1: they were guessed from texts of options.
-inline constexpr int kProvenanceSchema = 2;
+/// 3: pictures of limbs and legends as they are now. 2: inputs are those that the options read. 1:
+/// they were guessed from texts of options.
+inline constexpr int kProvenanceSchema = 3;
 
 /// The part that all outputs of one source share. Computes the SHA-256 of the source and of every
 /// file in the options. @throws SourceError.

@@ -21,13 +21,34 @@ std::map<InputName, std::string> HashesOfInputs(const Json& provenance) {
   return hashes;
 }
 
+void AddCorrectionsOfSchemaTwo(const Json& then, const RenderOptions& options,
+                               std::vector<std::string>& clauses) {
+  const bool has_former_filters = then.value("loads", Json::object()).contains("low_pass_secs");
+  if (has_former_filters) {
+    clauses.emplace_back(
+        "load spheres were larger, and their classes and the numbers in plots came from different "
+        "filters (now: --shown)");
+  } else if (ToPictureSpec(options.view).look.Shows(render::ScenePart::kLoads)) {
+    clauses.emplace_back("load spheres did not follow the width of the person's limbs");
+  }
+  if (!*options.view.no_overlays && (options.view.overlay->legend || !options.view.plot->empty())) {
+    clauses.emplace_back(
+        "the legend and plots called an unknown load 'no data', and the ground reaction force "
+        "'force on a foot'");
+  }
+  if (then.value("source", Json::object()).value("name", "") == "demo:lift") {
+    clauses.emplace_back("the forearms of demo:lift passed through the thighs");
+  }
+}
+
 }  // namespace
 
 bool DecideTheSame(const Json& a, const Json& b) {
   const auto decisive = [](const Json& given) {
     // Through text, so that 1.0 and 1 are what they are after reading.
     auto json = nlohmann::json::parse(ToText(given));
-    for (const char* follows : {"camera", "path", "pictures", "file"}) json.erase(follows);
+    for (const char* follows : {"camera", "camera_note", "path", "pictures", "file"})
+      json.erase(follows);
     return json;
   };
   return decisive(a) == decisive(b);
@@ -60,13 +81,11 @@ std::string DifferenceOfInputs(const Json& then, const Json& now) {
 
 std::vector<std::string> CorrectionsSince(const Json& then) {
   std::vector<std::string> clauses;
-  if (then.value("loads", Json::object()).contains("low_pass_secs")) {
-    clauses.emplace_back(
-        "load spheres were larger, and their classes and the numbers in plots came from different "
-        "filters (now: --shown)");
-  }
-  if (then.value("schema", 0) >= 2) return clauses;
+  const int schema = then.value("schema", 0);
+  if (schema >= 3) return clauses;
   const RenderOptions options = OptionsOf(then, "a." + then.value("format", ""));
+  AddCorrectionsOfSchemaTwo(then, options, clauses);
+  if (schema >= 2) return clauses;
   if (!options.view.plot->empty() && *options.loads.class_limits != *LoadOptions().class_limits) {
     clauses.emplace_back("the bands behind --plot did not follow --class_limits");
   }

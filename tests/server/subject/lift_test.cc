@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "server/loads/load_estimator.h"
 #include "tests/server/subject/subject_checks.h"
 #include "urdf/body_parameters.h"
+#include "urdf/skin/limbs.h"
 
 namespace kinescope::subject {
 namespace {
@@ -54,6 +57,47 @@ TEST(Lift, KeepsTheDistanceOfTheHandsWhileTheyHoldTheBox) {
     const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
     const double width = (GripOf(links, urdf::kRightHand) - GripOf(links, urdf::kLeftHand)).norm();
     ASSERT_NEAR(width, 0.32, 1e-9) << "at " << t;
+  }
+}
+
+// m between the surfaces of two limbs at rest; negative: one is in the other.
+double GapBetween(const urdf::LinkPoses& links, const skin::LimbShape& a,
+                  const skin::LimbShape& b) {
+  const auto at = [&](const skin::LimbShape& limb, double share) {
+    const auto in_world = [&](const skin::LimbEnd& end) -> Vector3d {
+      const urdf::Pose& link = links[Index(end.segment)];
+      return link.position + link.orientation * end.point;
+    };
+    return Vector3d((1 - share) * in_world(limb.start) + share * in_world(limb.end));
+  };
+  double gap = 9;
+  constexpr int kSteps = 24;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double s = static_cast<double>(i) / kSteps;
+    const double radius = (1 - s) * a.start.radius + s * a.end.radius;
+    const Vector3d from = at(b, 0), along = at(b, 1) - from, p = at(a, s);
+    const double t = std::clamp(along.dot(p - from) / along.squaredNorm(), 0.0, 1.0);
+    const double other = (1 - t) * b.start.radius + t * b.end.radius;
+    gap = std::min(gap, (p - from - t * along).norm() - radius - other);
+  }
+  return gap;
+}
+
+TEST(Lift, KeepsTheArmsOutOfTheLegs) {
+  for (const double height : {1.55, 1.75, 1.95}) {
+    const auto motion = MakeMotion("lift", height);
+    const skin::LimbShapes limbs = skin::LimbShapesOf(*motion->character().skeleton, {});
+    for (double t = 0; t < kPeriodSecs; t += 0.05) {
+      const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
+      for (int arm = skin::kRightUpperArmLimb; arm <= skin::kLeftHandLimb; ++arm) {
+        for (const int leg : {skin::kRightThighLimb, skin::kRightShankLimb, skin::kLeftThighLimb,
+                              skin::kLeftShankLimb}) {
+          const double gap = GapBetween(links, limbs[Index(arm)], limbs[Index(leg)]);
+          EXPECT_GT(gap, 0) << "limb " << arm << " is in limb " << leg << " at " << t << " s, "
+                            << height << " m";
+        }
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <tuple>
@@ -231,31 +232,61 @@ TEST(Provenance, ComparesOnlyCommonInputsWithTheFirstSchema) {
   EXPECT_NE(DifferenceOfInputs(none, same), "");
 }
 
+// Of a picture of schema 1, `options` set: without what is named for all pictures before schema 3.
+std::vector<std::string> CorrectionsOfSchemaOne(const Json& then) {
+  Json two = then;
+  two["schema"] = 2;
+  two["options"].erase("figure");  // another option since
+  std::vector<std::string> clauses = CorrectionsSince(then);
+  const std::vector<std::string> of_two = CorrectionsSince(two);
+  EXPECT_TRUE(std::equal(of_two.begin(), of_two.end(), clauses.begin())) << "in the order of age";
+  clauses.erase(clauses.begin(), clauses.begin() + static_cast<long>(of_two.size()));
+  return clauses;
+}
+
 TEST(Provenance, NamesTheErrorsOfTheEarlierVersionThatAffectItsPictures) {
   using ::testing::ElementsAre;
   using ::testing::HasSubstr;
   using ::testing::IsEmpty;
-  EXPECT_THAT(CorrectionsSince(SchemaOne({})), IsEmpty());
-  EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}})), IsEmpty());
-  EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}, {"class_limits", "0.1,0.2"}})),
+  EXPECT_THAT(CorrectionsOfSchemaOne(SchemaOne({})), IsEmpty());
+  EXPECT_THAT(CorrectionsOfSchemaOne(SchemaOne({{"plot", "l5_s1"}})), IsEmpty());
+  EXPECT_THAT(CorrectionsOfSchemaOne(SchemaOne({{"plot", "l5_s1"}, {"class_limits", "0.1,0.2"}})),
               ElementsAre(HasSubstr("--class_limits")));
-  Json dwelling = SchemaOne({});
-  dwelling["schema"] = 2;
-  dwelling["loads"] = {{"low_pass_secs", 0.15}};
-  EXPECT_THAT(CorrectionsSince(dwelling), ElementsAre(HasSubstr("--shown")));
-  EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "demo:lift@1"}})),
+  EXPECT_THAT(CorrectionsOfSchemaOne(SchemaOne({{"ghost", "demo:lift@1"}})),
               ElementsAre(HasSubstr("ghost")));
-  EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "n_pose"}})), IsEmpty());
+  EXPECT_THAT(CorrectionsOfSchemaOne(SchemaOne({{"ghost", "n_pose"}})), IsEmpty());
   Json clip = SchemaOne({{"size", "320x192"}});
   clip["format"] = "mp4";
-  EXPECT_THAT(CorrectionsSince(clip), ElementsAre(HasSubstr("multiple of 128")));
+  EXPECT_THAT(CorrectionsOfSchemaOne(clip), ElementsAre(HasSubstr("multiple of 128")));
   clip["options"]["size"] = "256x192";
-  EXPECT_THAT(CorrectionsSince(clip), IsEmpty());
+  EXPECT_THAT(CorrectionsOfSchemaOne(clip), IsEmpty());
   Json numbered = SchemaOne({{"plot", "l5_s1"}});
   numbered["number"] = 3;
-  EXPECT_THAT(CorrectionsSince(numbered), ElementsAre(HasSubstr("length of the sequence")));
-  numbered["schema"] = 2;
-  EXPECT_THAT(CorrectionsSince(numbered), IsEmpty());
+  EXPECT_THAT(CorrectionsOfSchemaOne(numbered), ElementsAre(HasSubstr("length of the sequence")));
+}
+
+TEST(Provenance, NamesWhatPicturesShowedOtherwiseBeforeTheThirdSchema) {
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  using ::testing::IsEmpty;
+  const auto of = [](const Json& options, int schema = 2) {
+    Json then = SchemaOne(options);
+    then["schema"] = schema;
+    then["options"].erase("figure");  // another option since
+    then["source"]["name"] = "take.mvnx";
+    return then;
+  };
+  const auto spheres = HasSubstr("width of the person's limbs"), words = HasSubstr("'no data'");
+  EXPECT_THAT(CorrectionsSince(of({})), ElementsAre(spheres, words));
+  EXPECT_THAT(CorrectionsSince(of({{"no_overlays", true}})), ElementsAre(spheres));
+  EXPECT_THAT(CorrectionsSince(of({{"hide", "loads"}, {"no_overlays", true}})), IsEmpty());
+  EXPECT_THAT(CorrectionsSince(of({}, 3)), IsEmpty());
+  Json lift = of({{"no_overlays", true}});
+  lift["source"]["name"] = "demo:lift";
+  EXPECT_THAT(CorrectionsSince(lift), ElementsAre(spheres, HasSubstr("forearms of demo:lift")));
+  Json dwelling = of({});
+  dwelling["loads"] = {{"low_pass_secs", 0.15}};
+  EXPECT_THAT(CorrectionsSince(dwelling), ElementsAre(HasSubstr("--shown"), words));
 }
 
 // A folder that is called as a camera, a theme or a segment is no input of the picture.
