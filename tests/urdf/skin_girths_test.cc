@@ -75,44 +75,69 @@ double Extreme(const PersonSkin& skin, int segment, double from, double to, bool
   return extreme;
 }
 
+struct Expected {
+  double at_reference, per_cm, per_kg;  // mm, mm/cm, mm/kg
+};
 struct Tape {
   const char* what;
   int segment;
   double from, to;  // for a stature of 1.75 m
   bool is_largest;
-  // ANSUR II, mm and mm/kg (own regression; 1.75 m and 75 kg, 1.62 m and 62 kg). Biceps and
-  // forearm are measured flexed there, 6 and 4 % more than relaxed.
-  double man, man_per_kg, woman, woman_per_kg;
+  // ANSUR II (own regression; 1.75 m and 75 kg, 1.62 m and 62 kg). Biceps and forearm are measured
+  // flexed there, 6 and 4 % more than relaxed.
+  Expected man, woman;
 };
 constexpr Tape kTapes[] = {
-    {"chest", urdf::kPelvis, 0.29, 0.34, true, 995, 6.23, 908, 7.27},
-    {"waist", urdf::kPelvis, 0.13, 0.22, false, 860, 7.96, 813, 9.08},
-    {"seat", urdf::kPelvis, -0.05, 0.05, true, 964, 5.35, 983, 6.86},
-    {"thigh", urdf::kLeftUpperLeg, -0.16, -0.12, true, 583, 4.1, 588, 5.1},
-    {"calf", urdf::kLeftLowerLeg, -0.20, -0.08, true, 373, 1.9, 361, 2.2},
-    {"ankle", urdf::kLeftLowerLeg, -0.41, -0.30, false, 222, 0.7, 211, 0.8},
-    {"upper arm", urdf::kLeftUpperArm, -0.21, -0.15, true, 315, 2.16, 274, 2.63},
-    {"forearm", urdf::kLeftForeArm, -0.12, -0.05, true, 284, 1.25, 246, 1.44},
-    {"wrist", urdf::kLeftForeArm, -0.26, -0.20, false, 172, 0.4, 152, 0.4},
+    {"chest", urdf::kPelvis, 0.29, 0.34, true, {995, -2.91, 6.23}, {908, -3.29, 7.27}},
+    {"waist", urdf::kPelvis, 0.13, 0.22, false, {860, -4.36, 7.96}, {813, -4.72, 9.08}},
+    {"seat", urdf::kPelvis, -0.05, 0.05, true, {964, -1.40, 5.35}, {983, -1.78, 6.86}},
+    {"thigh", urdf::kLeftUpperLeg, -0.16, -0.12, true, {583, -1.8, 4.1}, {588, -1.9, 5.1}},
+    {"calf", urdf::kLeftLowerLeg, -0.20, -0.08, true, {373, -0.7, 1.9}, {361, -0.5, 2.2}},
+    {"ankle", urdf::kLeftLowerLeg, -0.41, -0.30, false, {222, 0.1, 0.7}, {211, 0.1, 0.8}},
+    {"upper arm", urdf::kLeftUpperArm, -0.21, -0.15, true, {315, -1.13, 2.16}, {274, -1.32, 2.63}},
+    {"forearm", urdf::kLeftForeArm, -0.12, -0.05, true, {284, -0.29, 1.25}, {246, -0.29, 1.44}},
+    {"wrist", urdf::kLeftForeArm, -0.26, -0.20, false, {172, 0.3, 0.4}, {152, 0.3, 0.4}},
 };
 
+struct Person {
+  bool is_woman;
+  double height, mass;
+};
+
+void ExpectGirths(const Person& person, double most_litres) {
+  const PersonSkin skin = SkinOf(person.is_woman, person.height, person.mass);
+  for (const Tape& tape : kTapes) {
+    const Expected& of = person.is_woman ? tape.woman : tape.man;
+    const double taller_cm = 100 * (person.height - (person.is_woman ? 1.62 : 1.75));
+    const double heavier = person.mass - (person.is_woman ? 62 : 75);
+    const double expected = of.at_reference + of.per_cm * taller_cm + of.per_kg * heavier;
+    const double size = person.height / 1.75;
+    const double girth =
+        1000 * Extreme(skin, tape.segment, size * tape.from, size * tape.to, tape.is_largest);
+    EXPECT_NEAR(girth / expected, 1, 0.065)
+        << tape.what << " of a " << (person.is_woman ? "woman" : "man") << " of " << person.height
+        << " m and " << person.mass << " kg: " << girth << " mm, expected " << expected;
+  }
+  EXPECT_NEAR(1000 * SignedVolume(skin.rest(), skin.triangles()) / person.mass, 0.95, most_litres)
+      << "litres a kg";
+}
+
 TEST(PersonSkin, HasTheGirthsOfTheirSexStatureAndMass) {
-  for (const auto& [is_woman, mass] :
-       {std::pair(false, 62.0), {false, 75.0}, {false, 105.0}, {true, 62.0}, {true, 85.0}}) {
-    const double height = is_woman ? 1.62 : 1.75;
-    const PersonSkin skin = SkinOf(is_woman, height, mass);
-    for (const Tape& tape : kTapes) {
-      const double expected = is_woman ? tape.woman + tape.woman_per_kg * (mass - 62)
-                                       : tape.man + tape.man_per_kg * (mass - 75);
-      const double size = height / 1.75;
-      const double girth =
-          1000 * Extreme(skin, tape.segment, size * tape.from, size * tape.to, tape.is_largest);
-      EXPECT_NEAR(girth / expected, 1, 0.065)
-          << tape.what << " of a " << (is_woman ? "woman" : "man") << " of " << mass
-          << " kg: " << girth << " mm, expected " << expected;
-    }
-    EXPECT_NEAR(1000 * SignedVolume(skin.rest(), skin.triangles()) / mass, 0.95,
-                0.04);  // litres a kg
+  for (const Person& person : {Person{false, 1.75, 62},
+                               {false, 1.75, 75},
+                               {false, 1.75, 105},
+                               {true, 1.62, 62},
+                               {true, 1.62, 85}}) {
+    ExpectGirths(person, 0.04);
+  }
+}
+
+// One in twenty is shorter or taller; their mass is that of the same body mass index. Their volume
+// grows with the cube of the stature, their mass with the square.
+TEST(PersonSkin, HasTheGirthsOfShortAndTallPeople) {
+  for (const Person& person :
+       {Person{false, 1.63, 65}, {false, 1.88, 86.5}, {true, 1.52, 54.5}, {true, 1.74, 71.5}}) {
+    ExpectGirths(person, 0.07);
   }
 }
 
