@@ -21,7 +21,7 @@ double AngleOf(const Vector2d& direction) { return std::atan2(direction.y(), dir
 
 }  // namespace
 
-std::optional<double> HeadingOf(const LinkPoses& links) {
+Heading HeadingOf(const LinkPoses& links) {
   constexpr double kLying = 0.35;     // the trunk's axis is this level
   constexpr double kUndefined = 0.5;  // length of the direction below which it means nothing
   const Eigen::Quaterniond& pelvis = links[kPelvis].orientation;
@@ -40,12 +40,13 @@ std::optional<double> HeadingOf(const LinkPoses& links) {
         return Vector2d(level - level.dot(axis) * axis);
       };
       const Vector2d face = across(Vector3d::UnitX());
-      return AngleOf(face.norm() > kLying ? face : across(Vector3d::UnitY()));
+      if (face.norm() > kLying) return {HeadingRule::kLyingOnSide, AngleOf(face)};
+      return {HeadingRule::kLyingLevel, AngleOf(across(Vector3d::UnitY()))};
     }
   }
   const Vector2d forward = 0.5 * (ForwardOf(pelvis) + ForwardOf(chest));
-  if (forward.norm() < kUndefined) return std::nullopt;
-  return AngleOf(forward);
+  if (forward.norm() < kUndefined) return {};
+  return {HeadingRule::kUpright, AngleOf(forward)};
 }
 
 }  // namespace kinescope::urdf

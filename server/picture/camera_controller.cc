@@ -63,6 +63,23 @@ std::string CameraController::name() const {
   return keys_.empty() ? camera_ : std::filesystem::path(camera_).filename().string();
 }
 
+std::string CameraController::HeadingNote(const SceneState& state) const {
+  const bool is_turned = !place_ && frame_ != CameraFrame::kWorld && !state.people.empty();
+  if (!is_turned) return "";
+  switch (urdf::HeadingOf(state.people.front().links).rule) {
+    case urdf::HeadingRule::kUpright: break;
+    case urdf::HeadingRule::kLyingOnSide:
+      return "the person lies on a side: the camera 'front' sees the face, from the side to which "
+             "it looks";
+    case urdf::HeadingRule::kLyingLevel:
+      return "the person lies on the back or the belly: the camera 'front' sees the left side";
+    case urdf::HeadingRule::kUndefined:
+      return "the person is upside down, so the heading is undefined: named cameras stay with the "
+             "axes of the world";
+  }
+  return "";
+}
+
 void CameraController::Prescan(const SceneState& state, const std::vector<Ball>& beside) {
   if (!prescan_start_nanos_) prescan_start_nanos_ = state.stamp_nanos;
   const double secs = SecsBetween(*prescan_start_nanos_, state.stamp_nanos);
@@ -166,7 +183,7 @@ void CameraController::FollowHeading(const SceneState& state, double secs) {
   constexpr double kLagSecs = 0.7;
   if (frame_ == CameraFrame::kWorld || state.people.empty()) return;
   if (heading_rad_ && frame_ == CameraFrame::kStart) return;
-  const std::optional<double> now = urdf::HeadingOf(state.people.front().links);
+  const std::optional<double> now = urdf::HeadingOf(state.people.front().links).rad;
   if (!now) return;
   if (frame_ == CameraFrame::kStart) {
     heading_rad_ = AlongFloorLines(*now);

@@ -55,6 +55,10 @@ class CameraController {
   render::Camera Only(const SceneState& state, double secs, double aspect,
                       const std::vector<Ball>& beside = {}) const;
 
+  /// How named cameras are turned where the person of the first picture does not stand or sit; ""
+  /// where they do, and for cameras that are not turned.
+  std::string HeadingNote(const SceneState& state) const;
+
   /// "front"; of fixed places and paths: "" and the file's name.
   std::string name() const;
 

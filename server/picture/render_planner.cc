@@ -131,7 +131,10 @@ void RenderPlanner::Prescan(const SceneState& state) {
 
 RenderRequest RenderPlanner::With(Layout layout, SceneState state, render::SceneLook look,
                                   std::vector<render::Camera> cameras, double secs) const {
-  RenderRequest request{std::move(state), cameras.front(), std::move(layout.spec), {}};
+  RenderRequest request{std::move(state), cameras.front(), std::move(layout.spec), {}, {}};
+  for (const CameraController& camera : cameras_) {
+    if (request.heading_note.empty()) request.heading_note = camera.HeadingNote(request.state);
+  }
   if (marks_at_) request.spec.marks = marks_at_(request.state);
   request.spec.look = std::move(look);
   for (std::size_t i = 0; i < request.spec.panes.size(); ++i) {

@@ -35,6 +35,7 @@ struct RenderRequest {
   render::PictureSpec spec;
   std::optional<render::LayerFormat> layer;  // format for its overlays as a vector file, if
                                              // requested
+  std::string heading_note;                  // CameraController::HeadingNote, of the first picture
 };
 
 class RenderPlanner {

@@ -51,7 +51,7 @@ bool HeldHeading::IsContinued(const PersonState& person, double dt) const {
 
 double HeldHeading::Follow(const PersonState& person) {
   if (frame_ == CameraFrame::kWorld) return 0;
-  const std::optional<double> now = urdf::HeadingOf(person.links);
+  const std::optional<double> now = urdf::HeadingOf(person.links).rad;
   const double dt = character_ ? Secs(person.sample.stamp_nanos - stamp_nanos_) : 0;
   if (!character_ || !IsContinued(person, dt)) {
     Begin(now);

@@ -25,7 +25,7 @@ LinkPoses Person(const Quaterniond& pelvis, double bend = 0) {
   return ForwardKinematics(DefaultSkeleton(), {Vector3d(3, -1, 1), pelvis}, angles);
 }
 
-double Degrees(const LinkPoses& links) { return HeadingOf(links).value() / kDegree; }
+double Degrees(const LinkPoses& links) { return HeadingOf(links).rad.value() / kDegree; }
 
 TEST(HeadingOf, IsThatOfAStandingPerson) {
   for (const double yaw : {-170.0, -90.0, 0.0, 45.0, 120.0}) {
@@ -45,14 +45,23 @@ TEST(HeadingOf, StaysWhenThePersonBendsOrLeans) {
 TEST(HeadingOf, ShowsALyingPersonFromTheSide) {
   // On the back, head towards +x: the left side looks to -y.
   EXPECT_NEAR(Degrees(Person(Turn(180, Vector3d::UnitZ()) * Turn(-90, Vector3d::UnitY()))), -90, 1);
+  EXPECT_EQ(HeadingOf(Person(Turn(-90, Vector3d::UnitY()))).rule, HeadingRule::kLyingLevel);
   // On the left side, head towards +x: the face looks to -y or +y, level.
   const Quaterniond on_side = Turn(90, Vector3d::UnitY()) * Turn(90, Vector3d::UnitZ());
   const Vector3d face = on_side * Vector3d::UnitX();
   EXPECT_NEAR(Degrees(Person(on_side)), std::atan2(face.y(), face.x()) / kDegree, 1);
+  EXPECT_EQ(HeadingOf(Person(on_side)).rule, HeadingRule::kLyingOnSide);
+}
+
+TEST(HeadingOf, SaysThatAPersonIsUprightAlsoWhenTheyBend) {
+  EXPECT_EQ(HeadingOf(Person(Quaterniond::Identity())).rule, HeadingRule::kUpright);
+  EXPECT_EQ(HeadingOf(Person(Quaterniond::Identity(), 90)).rule, HeadingRule::kUpright);
 }
 
 TEST(HeadingOf, IsUndefinedUpsideDown) {
-  EXPECT_FALSE(HeadingOf(Person(Turn(150, Vector3d::UnitY()), 30)).has_value());
+  const Heading heading = HeadingOf(Person(Turn(150, Vector3d::UnitY()), 30));
+  EXPECT_FALSE(heading.rad.has_value());
+  EXPECT_EQ(heading.rule, HeadingRule::kUndefined);
 }
 
 }  // namespace

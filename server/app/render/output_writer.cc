@@ -1,5 +1,7 @@
 #include "server/app/render/output_writer.h"
 
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -48,10 +50,13 @@ OutputWriter::OutputWriter(const RunContext& run, Output output, bool is_up_to_d
   }
 }
 
-void OutputWriter::Put(long k, const FuturePicture& picture, const render::Camera& camera) {
+void OutputWriter::Put(long k, const FuturePicture& picture, const render::Camera& camera,
+                       const std::string& heading_note) {
   if (sink_ == nullptr) {
-    sink_ = MakeSink();
     first_camera_ = ToJson(camera);
+    heading_note_ = heading_note;
+    if (!heading_note_.empty()) spdlog::warn("{}: {}", output_.path, heading_note_);
+    sink_ = MakeSink();
   }
   sink_->Put(k, picture, camera);
   ++result_.drawn;
@@ -74,13 +79,18 @@ std::unique_ptr<OutputSink> OutputWriter::MakeSink() const {
   return MakeClipSink(output_.path, spec, PackingOf(run_, output_), metadata);
 }
 
+void OutputWriter::AddCamera(Json camera, Json& provenance) const {
+  provenance["camera"] = std::move(camera);
+  if (!heading_note_.empty()) provenance["camera_note"] = heading_note_;
+}
+
 // On the threads of the sink.
 std::map<std::string, std::string> OutputWriter::MetadataFor(const render::Camera& camera,
                                                              long k) const {
   const bool is_numbered = output_.kind == OutputKind::kSequence;
   Json provenance =
       run_.provenance.Of(output_, is_numbered ? std::optional<long>(k) : std::nullopt);
-  provenance["camera"] = ToJson(camera);
+  AddCamera(ToJson(camera), provenance);
   std::map<std::string, std::string> text;
   if (!run_.options.view.title->empty()) {
     text[output_.kind == OutputKind::kClip ? "title" : "Title"] = *run_.options.view.title;
@@ -104,7 +114,7 @@ void OutputWriter::Finish(long clip_pictures) {
   result_.secs = is_still() ? 0 : static_cast<double>(run_.grid.rate.NanosOf(clip_pictures)) * 1e-9;
   if (!run_.settings.sidecar || run_.settings.only_picture || result_.drawn == 0) return;
   Json provenance = run_.provenance.Of(output_);
-  provenance["camera"] = first_camera_;
+  AddCamera(first_camera_, provenance);
   WriteSidecar(output_, std::move(provenance), run_.source, result_.pictures);
 }
 

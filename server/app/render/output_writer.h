@@ -48,8 +48,10 @@ class OutputWriter {
   bool is_still() const { return output_.kind == OutputKind::kStill; }
   bool is_up_to_date() const { return is_up_to_date_; }
 
-  /// Pictures of a clip must be added in order. @throws the error of an earlier picture.
-  void Put(long k, const FuturePicture& picture, const render::Camera& camera);
+  /// Pictures of a clip must be added in order. `heading_note`: how its cameras are turned; that of
+  /// the first picture is logged and recorded. @throws the error of an earlier picture.
+  void Put(long k, const FuturePicture& picture, const render::Camera& camera,
+           const std::string& heading_note);
   /// The sample counter of a still.
   void SetCounter(std::uint32_t counter) { result_.counter = counter; }
 
@@ -61,6 +63,7 @@ class OutputWriter {
 
  private:
   std::unique_ptr<OutputSink> MakeSink() const;
+  void AddCamera(Json camera, Json& provenance) const;
   std::map<std::string, std::string> MetadataFor(const render::Camera& camera, long k) const;
 
   const RunContext run_;
@@ -68,6 +71,7 @@ class OutputWriter {
   const bool is_up_to_date_;
   OutputResult result_;
   Json first_camera_;
+  std::string heading_note_;
   std::unique_ptr<OutputSink> sink_;  // from the first picture on; last: its threads use the others
 };
 

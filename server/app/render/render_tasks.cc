@@ -26,10 +26,11 @@ void StillTask::Draw(RenderRequest request, DrawPool& pool, Progress& progress) 
   }
   const render::Camera camera = request.camera;
   const std::uint32_t counter = request.state.counter;
+  const std::string note = request.heading_note;
   const FuturePicture picture = pool.Draw(std::move(request));
   for (OutputWriter* const writer : writers_) {
     writer->SetCounter(counter);
-    writer->Put(0, picture, camera);
+    writer->Put(0, picture, camera, note);
     progress.Step();
   }
 }
@@ -43,8 +44,9 @@ void ClipTask::Draw(long k, const SceneState& scene, const ResumeCheck& check, D
   }
   if (takers.empty()) return progress.Skip();
   const render::Camera camera = request.camera;
+  const std::string note = request.heading_note;
   const FuturePicture picture = pool.Draw(std::move(request));
-  for (OutputWriter* const taker : takers) taker->Put(k, picture, camera);
+  for (OutputWriter* const taker : takers) taker->Put(k, picture, camera, note);
   progress.Step();
 }
 

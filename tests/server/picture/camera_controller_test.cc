@@ -118,6 +118,32 @@ TEST(CameraController, TurnsWithThePersonOrNotAtAllOnRequest) {
   EXPECT_NEAR(Side(controller.Aim(TurnedScene(70, 9), kAspect)), 70, 0.5);
 }
 
+TEST(CameraController, SaysHowItIsTurnedForAPersonWhoDoesNotStand) {
+  const auto person = [](double degrees, const Vector3d& axis) {
+    SceneState state = SceneAt(0, 0);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * M_PI / 180, axis));
+    for (urdf::Pose& link : state.people.front().links) {
+      link.position = turn * link.position;
+      link.orientation = turn * link.orientation;
+    }
+    return state;
+  };
+  const SceneState on_back = person(-90, Vector3d::UnitY()),
+                   on_side = person(90, Vector3d::UnitX()),
+                   upside_down = person(180, Vector3d::UnitY());
+  CameraController front(ParseCamera("front"), {});
+  EXPECT_EQ(front.HeadingNote(person(30, Vector3d::UnitZ())), "");
+  EXPECT_THAT(front.HeadingNote(on_back), HasSubstr("on the back or the belly"));
+  EXPECT_THAT(front.HeadingNote(on_side), HasSubstr("on a side"));
+  EXPECT_THAT(front.HeadingNote(upside_down), HasSubstr("axes of the world"));
+  EXPECT_NEAR(Side(front.Only(upside_down, 0, kAspect)), 0, 1e-6) << "as it says";
+  EXPECT_NEAR(std::abs(Side(front.Only(on_back, 0, kAspect))), 90, 0.5) << "as it says";
+  CameraOptions world;
+  world.camera_frame = CameraFrame::kWorld;
+  EXPECT_EQ(CameraController(ParseCamera("front"), world).HeadingNote(on_back), "");
+  EXPECT_EQ(CameraController(ParseCamera("0,-4,1:0,0,1"), {}).HeadingNote(on_back), "");
+}
+
 TEST(CameraController, TurnsLivePicturesByTheHeadingThatThePageHas) {
   SceneState state = TurnedScene(130);
   state.view_heading = 40 * M_PI / 180;

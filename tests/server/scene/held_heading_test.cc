@@ -85,7 +85,7 @@ TEST(HeldHeading, IsThatOfTheBeginningAndStays) {
 
 TEST(HeldHeading, IsTakenWhenThePersonHasStoodUp) {
   Shown shown(CameraFrame::kStart);
-  EXPECT_NEAR(shown.Play(2, Lying(140)), *urdf::HeadingOf(LinksOf(Lying(140))) / kDegree, 1e-6);
+  EXPECT_NEAR(shown.Play(2, Lying(140)), *urdf::HeadingOf(LinksOf(Lying(140))).rad / kDegree, 1e-6);
   EXPECT_GT(std::abs(shown.Go(Facing(-40), 1) + 40), 10) << "it glides";
   EXPECT_NEAR(shown.Go(Facing(-40), 9), -40, 1e-6);
   EXPECT_LT(shown.fastest(), 120);

@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "render/image/png_file.h"
+#include "tests/captured_log.h"
 #include "tests/deadline.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/shared_data.h"
@@ -41,6 +43,25 @@ std::vector<OutputResult> RenderFaked(const RenderOptions& options, std::size_t 
   RunSettings settings;
   settings.sidecar = false;
   return RenderSource(options, PlanOutputs(options).at(0), settings, pool);
+}
+
+// The record of a picture of `pose`.
+nlohmann::json RecordOf(const std::string& pose) {
+  const TempFolder folder;
+  DrawPool pool(1, 1, [&] { return std::make_unique<FakeRenderer>(nullptr); });
+  const RenderOptions options = SmallRun(pose, {folder / "a.png"});
+  RenderSource(options, PlanOutputs(options).at(0), RunSettings(), pool);
+  return nlohmann::json::parse(ReadFile(folder / "a.png.json"));
+}
+
+TEST(RenderRun, RecordsHowThePictureOfALyingPersonIsTurned) {
+  const kinescope::testing::CapturedLog log;
+  EXPECT_FALSE(RecordOf("pose: n_pose").contains("camera_note"));
+  EXPECT_EQ(log.text(), "");
+  const nlohmann::json lying = RecordOf("pose: n_pose, vertical_pelvis=-85");
+  const std::string note = lying.at("camera_note");
+  EXPECT_THAT(note, ::testing::HasSubstr("lies on the back or the belly"));
+  EXPECT_THAT(log.text(), ::testing::EndsWith("a.png: " + note + "\n"));
 }
 
 TEST(RenderRun, RendersAnyNumberOfStillsInTheMemoryOfOnePicture) {
