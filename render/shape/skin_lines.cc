@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr double kOutlineWave = 0.020, kBorderWave = 0.03;  // m: waves that come from triangles
-constexpr double kLeastLid = 0.008;                        // of the picture's height
+constexpr double kLeastLid = 0.008;                         // of the picture's height
 constexpr double kLidWidth = 0.025;                         // m
 
 // Triangles in which `values` are continuous: elsewhere, parts with borders of their own meet.

@@ -80,9 +80,8 @@ void YamlOptions::SetAll(OptionList& options, const char* help) const {
                                    line, key, first->second));
     }
     if (options.Find(key) != nullptr) continue;
-    throw UsageError(fmt::format("{}unknown option '{}'{} (see {})",
-                                 PlaceOf(path_, entry.first), key,
-                                 SuggestionFor(key, options.Names()), help));
+    throw UsageError(fmt::format("{}unknown option '{}'{} (see {})", PlaceOf(path_, entry.first),
+                                 key, SuggestionFor(key, options.Names()), help));
   }
   const auto look = [&](const std::string& name) {
     const Option* const option = options.Find(name);

@@ -176,9 +176,7 @@ class Bridge : public RosBridge {
 
  private:
   // Known when roscpp was started.
-  bool IsSimulated() const {
-    return registration_.Node() && ros::Time::isSimTime();
-  }
+  bool IsSimulated() const { return registration_.Node() && ros::Time::isSimTime(); }
 
   // Of what is shown; by the clock as it was at the last sample.
   std::int64_t RosStamp(std::int64_t stamp_nanos) const {

@@ -132,9 +132,9 @@ TEST_F(GoldenPage, IsBlamedForWhatItLoads) {
   write_value("0.72");
   ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
   write_value("0.73");
-  EXPECT_THAT(Difference(), AllOf(HasSubstr("knee: expected “0.72”, found “0.73”"),
-                                  HasSubstr("The page has changed:"),
-                                  Not(HasSubstr("The program has changed"))));
+  EXPECT_THAT(Difference(),
+              AllOf(HasSubstr("knee: expected “0.72”, found “0.73”"),
+                    HasSubstr("The page has changed:"), Not(HasSubstr("The program has changed"))));
 }
 
 TEST_F(GoldenPage, StandsBesideScenes) {

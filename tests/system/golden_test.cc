@@ -150,7 +150,7 @@ TEST_F(GoldenCheck, NamesTheLineThatIsWrong) {
   EXPECT_THAT(result.out, HasSubstr("unknown option 'camra'; nearest: camera (see `kinescope"));
   EXPECT_THAT(result.out, HasSubstr("bend                     same"));
   const auto run = nlohmann::json::parse(testing::ReadFile(case_ / "out/run.json"));
-  const std::map<std::string, int> expected = {{"a_key", 3}, {"b_cut", 3},  {"c_missing", 2},
+  const std::map<std::string, int> expected = {{"a_key", 3},  {"b_cut", 3},  {"c_missing", 2},
                                                {"d_late", 2}, {"e_bomb", 3}, {"bend", 1}};
   std::map<std::string, int> lines;
   for (const auto& verdict : run.at("cases")) lines[verdict.at("case")] = verdict.at("line");
@@ -395,10 +395,10 @@ TEST_F(GoldenCheck, SaysUnderWhichCircumstanceWhatChanges) {
   const ProgramResult result =
       Kinescope({"golden", "stress", case_}, {"LD_PRELOAD=" KINESCOPE_OTHER_DIGITS});
   EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
-  EXPECT_THAT(result.out, AllOf(HasSubstr("time zone Asia/Kathmandu     DIFFERS\n  bend: "),
-                                HasSubstr(" pixels differ, the first at x "),
-                                HasSubstr(", nearest to "),
-                                HasSubstr("working folder /             1 the same")));
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("time zone Asia/Kathmandu     DIFFERS\n  bend: "),
+                    HasSubstr(" pixels differ, the first at x "), HasSubstr(", nearest to "),
+                    HasSubstr("working folder /             1 the same")));
 }
 
 TEST_F(GoldenCheck, SaysUnderWhichCircumstancesNothingIsDrawn) {

@@ -337,10 +337,9 @@ std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFa
                        actual.has_floor ? "a floor" : "none");
   } else if (expected.floor_z_m && actual.floor_z_m &&
              std::abs(*actual.floor_z_m - *expected.floor_z_m) > kMetresLimit) {
-    findings.AddChange(FindingKind::kFloor, "floor", "",
-                       fmt::format("{:.3f} m", *expected.floor_z_m),
-                       fmt::format("{:.3f} m", *actual.floor_z_m),
-                       *actual.floor_z_m - *expected.floor_z_m);
+    findings.AddChange(
+        FindingKind::kFloor, "floor", "", fmt::format("{:.3f} m", *expected.floor_z_m),
+        fmt::format("{:.3f} m", *actual.floor_z_m), *actual.floor_z_m - *expected.floor_z_m);
   }
   CompareAllCameras(expected, actual, findings);
   std::vector<GoldenFinding> all = findings.Take();

@@ -264,8 +264,8 @@ std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
     inputs.push_back({"source", source.name, source.digest ? source.digest->sha256 : ""});
   }
   if (!golden_case.page_file.empty()) {
-    inputs.push_back({"page", golden_case.page_file.filename(),
-                      DigestOf(golden_case.page_file).sha256});
+    inputs.push_back(
+        {"page", golden_case.page_file.filename(), DigestOf(golden_case.page_file).sha256});
   }
   GoldenCase copy = golden_case;  // a list refers to values that can be set
   options::OptionList list;

@@ -42,9 +42,9 @@ struct GoldenCase {
 
   std::string name;  // of the file, without .yaml
   options::Text source;
-  options::Text page;    // "": a scene (golden_page.h)
+  options::Text page;               // "": a scene (golden_page.h)
   std::filesystem::path page_file;  // of a page that is a file; ""
-  options::Number time;  // s
+  options::Number time;             // s
   /// Of a clip, which begins at `time`: of its pictures, every n-th is compared.
   options::Optional<options::Number> seconds;
   options::Number fps;
@@ -77,7 +77,7 @@ struct GoldenDrawing {
   std::optional<render::FrameCode> frame_code;  // what the picture must contain
   PictureFacts facts;
   std::vector<ObjectPlace> places;  // of the objects of the facts
-  std::vector<Mask> masks;  // besides those of the case
+  std::vector<Mask> masks;          // besides those of the case
   /// What pixels depend on; empty: the renderer.
   std::map<std::string, std::string> environment;
 };

@@ -93,9 +93,8 @@ std::string CauseText(const GoldenChanges& changes) {
         fmt::join(changes.inputs, "; "));
   }
   if (cause == "environment") {
-    return fmt::format(
-        "It was drawn in another environment ({}); the {} may have changed, too.",
-        fmt::join(changes.environment, "; "), changes.is_page ? "page" : "program");
+    return fmt::format("It was drawn in another environment ({}); the {} may have changed, too.",
+                       fmt::join(changes.environment, "; "), changes.is_page ? "page" : "program");
   }
   if (cause == "page") {
     return "The page has changed: case, browser and the page's own file are those of the accepted "

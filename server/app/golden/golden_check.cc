@@ -75,8 +75,7 @@ CaseVerdict OfNoCase(const std::string& name, const fs::path& file, const std::s
   verdict.name = name;
   verdict.file = file;
   verdict.outcome = Outcome::kDiffers;
-  verdict.findings = {{FindingKind::kPicture, kWholePicture, "", "", 0,
-                       what}};
+  verdict.findings = {{FindingKind::kPicture, kWholePicture, "", "", 0, what}};
   return verdict;
 }
 
@@ -142,7 +141,8 @@ std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite) {
         OfNoCase(file, suite.folder / file, "is not read: a case ends in .yaml; rename it"));
   }
   for (const fs::path& orphan : suite.orphans) {
-    verdicts.push_back(OfNoCase(orphan, suite.folder / orphan, no_case + "remove it, or write the case"));
+    verdicts.push_back(
+        OfNoCase(orphan, suite.folder / orphan, no_case + "remove it, or write the case"));
   }
   for (const std::string& name : suite.unknown_locks) {
     verdicts.push_back(

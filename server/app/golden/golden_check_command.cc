@@ -77,7 +77,9 @@ void WriteResults(const CheckOptions& options, const GoldenSuite& suite,
                   const std::vector<CaseVerdict>& verdicts) {
   const std::filesystem::path out = *options.out;
   WriteRun(out, *options.cases.folder, verdicts);
-  render::WriteNewFile(out / "report.html", GoldenReport(verdicts, {*options.cases.folder, suite.folder / suite.pictures, out}));
+  render::WriteNewFile(
+      out / "report.html",
+      GoldenReport(verdicts, {*options.cases.folder, suite.folder / suite.pictures, out}));
   if (!options.junit->empty()) {
     render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, out));
   }

@@ -51,9 +51,8 @@ std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& 
     lines.push_back(CommandText(line));
   }
   if (verdict.now) {
-    lines.push_back(CommandText(
-        fmt::format("Accept: kinescope golden accept {} {}", ShellWord(out.string()),
-                    ShellWord(verdict.name))));
+    lines.push_back(CommandText(fmt::format("Accept: kinescope golden accept {} {}",
+                                            ShellWord(out.string()), ShellWord(verdict.name))));
   }
   return fmt::format(
       "::error file={},line={},title={}::{}\n", CommandProperty(verdict.file.string()),
@@ -67,10 +66,11 @@ std::string Weakness(const std::vector<CaseVerdict>& verdicts) {
   const auto count = std::count_if(verdicts.begin(), verdicts.end(), IsWeaker);
   if (count == 0) return "";
   const auto first = std::find_if(verdicts.begin(), verdicts.end(), IsWeaker);
-  return fmt::format("weaker check: {} compared in another environment than that of the accepted "
-                     "{} ({})",
-                     count == 1 ? "1 picture was" : fmt::format("{} pictures were", count),
-                     count == 1 ? "one" : "ones", fmt::join(first->changes.environment, "; "));
+  return fmt::format(
+      "weaker check: {} compared in another environment than that of the accepted "
+      "{} ({})",
+      count == 1 ? "1 picture was" : fmt::format("{} pictures were", count),
+      count == 1 ? "one" : "ones", fmt::join(first->changes.environment, "; "));
 }
 
 }  // namespace

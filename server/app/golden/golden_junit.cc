@@ -26,7 +26,8 @@ std::string PathForServer(const std::filesystem::path& path) {
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   if (std::getenv("GITLAB_CI") == nullptr) return absolute.string();
   const char* const project = std::getenv("CI_PROJECT_DIR");
-  return absolute.lexically_proximate(project != nullptr ? project : std::filesystem::current_path())
+  return absolute
+      .lexically_proximate(project != nullptr ? project : std::filesystem::current_path())
       .string();
 }
 

@@ -104,9 +104,10 @@ GoldenLock ParseLock(const std::string& text, std::string* pictures) {
   const auto see = [&](int depth, json::parse_event_t event, json& parsed) {
     if (event != json::parse_event_t::key || depth != kDepthOfCases) return true;
     if (names.insert(parsed.get<std::string>()).second) return true;
-    throw std::runtime_error(fmt::format("{} stands there twice, as after a merge; remove the one "
-                                         "that is not accepted",
-                                         JsonText(parsed)));
+    throw std::runtime_error(
+        fmt::format("{} stands there twice, as after a merge; remove the one "
+                    "that is not accepted",
+                    JsonText(parsed)));
   };
   const json document = json::parse(text, see);
   if (document.at("schema") != kLockSchema) {

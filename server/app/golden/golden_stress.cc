@@ -56,10 +56,9 @@ Circumstance DecimalCommas(const fs::path& scratch) {
   if (IsInstalled(kLocale)) return commas;
   const fs::path locales = scratch / "locales";
   fs::create_directories(locales);
-  const ChildResult made =
-      RunChild(With({"localedef", "--no-archive", "--inputfile=de_DE", "--charmap=UTF-8",
-                     (locales / kLocale).string()}),
-               std::chrono::minutes(1));
+  const ChildResult made = RunChild(With({"localedef", "--no-archive", "--inputfile=de_DE",
+                                          "--charmap=UTF-8", (locales / kLocale).string()}),
+                                    std::chrono::minutes(1));
   commas.before.push_back("LOCPATH=" + locales.string());
   if (made.exit_code != 0 || made.signal != 0) {
     commas.why_not = std::string(kLocale) + " is not installed (apt-get install locales)";
@@ -82,8 +81,7 @@ std::vector<Circumstance> Circumstances(const fs::path& scratch) {
   std::vector<Circumstance> all;
   for (const char* threads : {"0", "1", "2", "4", "8"}) {
     all.push_back({fmt::format("{} filling threads", threads),
-                   With({std::string("LP_NUM_THREADS=") + threads}),
-                   ""});
+                   With({std::string("LP_NUM_THREADS=") + threads}), ""});
   }
   all.push_back(DecimalCommas(scratch));
   all.push_back({"time zone Asia/Kathmandu", With({"TZ=Asia/Kathmandu"}), ""});

@@ -104,11 +104,10 @@ Json ToJson(const CaseVerdict& verdict, const fs::path& out) {
   for (const GoldenFinding& finding : verdict.findings) line["findings"].push_back(ToJson(finding));
   line["layers"] = Json::array();
   for (const GoldenLayer& layer : verdict.layers) {
-    line["layers"].push_back(
-        {{"name", layer.name},
-         {"found", layer.found},
-         {"passes", layer.passes},
-         {"numbers", layer.numbers}});
+    line["layers"].push_back({{"name", layer.name},
+                              {"found", layer.found},
+                              {"passes", layer.passes},
+                              {"numbers", layer.numbers}});
   }
   line["cause"] = HasCause(verdict) ? Json(CauseOf(verdict.changes)) : Json(nullptr);
   line["changes"] = {{"case", verdict.changes.options},
@@ -143,8 +142,8 @@ CaseVerdict VerdictFrom(const json& line) {
     verdict.findings.push_back(FindingFrom(finding));
   }
   for (const json& layer : line.at("layers")) {
-    verdict.layers.push_back({layer.at("name"), layer.at("found"), layer.at("passes"),
-                              layer.value("numbers", json())});
+    verdict.layers.push_back(
+        {layer.at("name"), layer.at("found"), layer.at("passes"), layer.value("numbers", json())});
   }
   const json& changes = line.at("changes");
   changes.at("case").get_to(verdict.changes.options);

@@ -54,7 +54,7 @@ bool ShowsNothing(const render::Image& image) {
 
 // All that golden.lock keeps of a drawing, but for the hash of its file.
 AcceptedCase DescriptionOf(const GoldenCase& golden_case, const GoldenDrawing& drawing,
-                      const std::map<std::string, std::string>& environment) {
+                           const std::map<std::string, std::string>& environment) {
   AcceptedCase described;
   described.pixels_sha256 = PixelsHash(drawing.image);
   const std::vector<Mask> masks = MasksOf(golden_case, drawing);

@@ -141,9 +141,8 @@ std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPl
   const auto area = [](const ObjectPlace& place) {
     return std::int64_t{place.box.width} * place.box.height;
   };
-  std::stable_sort(places.begin(), places.end(), [&](const ObjectPlace& a, const ObjectPlace& b) {
-    return area(a) < area(b);
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const ObjectPlace& a, const ObjectPlace& b) { return area(a) < area(b); });
   std::vector<std::string> names;
   for (const ObjectPlace& place : places) {
     if (names.size() == kMostNames) break;

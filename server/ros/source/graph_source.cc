@@ -182,8 +182,8 @@ class GraphSource : public Source {
   const std::string description_;
   const std::int64_t start_wall_ = WallNanos();
   const std::int64_t start_monotonic_ = MonotonicNanos();
-  RosClock clock_;                        // without a time unless it is simulated
-  std::map<int, std::int64_t> newest_;    // stamps, by character; if it is
+  RosClock clock_;                      // without a time unless it is simulated
+  std::map<int, std::int64_t> newest_;  // stamps, by character; if it is
   TransformPeople people_;
   LinkStatesPerson link_states_;
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
