@@ -1,11 +1,11 @@
 #include "server/app/golden/golden_stress.h"
 
 #include <fmt/format.h>
-#include <locale.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <clocale>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
