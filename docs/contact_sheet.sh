@@ -2,8 +2,8 @@
 # Draws docs/contact_sheet.jpg: every camera, theme, overlay and part of the scene in one picture.
 # docs/contact_sheet.sh [PROGRAM]   (needs imagemagick)
 # docs/contact_sheet.sh --postures FOLDER [PROGRAM]
-#   draws a man and a woman in fourteen postures from four cameras, at 800 px, and FOLDER/sheet.jpg of them all: to look at
-#   after every change of the skin
+#   draws a man and a woman in fourteen postures from four cameras, at 800 px: to look at after every change of the skin;
+#   and docs/postures.jpg, a small sheet of them all, a row per posture
 set -euo pipefail
 
 # draw_postures FOLDER
@@ -24,7 +24,7 @@ draw_postures() {
   for sample in "${!names[@]}"; do
     tiles+=("$out/${names[sample]}"-{male,female}-{front,right,back,three_quarter}.png)
   done
-  montage "${tiles[@]}" -tile 8x -geometry 300x300+2+2 -background '#8a9099' -quality 88 "$out/sheet.jpg"
+  montage "${tiles[@]}" -tile 8x -geometry 170x170+2+2 -background '#8a9099' -quality 80 docs/postures.jpg
 }
 
 postures=''

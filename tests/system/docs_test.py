@@ -191,6 +191,10 @@ def try_kinescope(words, folder):
                        "-keyout", "lab.key", "-out", "lab.pem"], folder)
         if problem:
             return problem
+    if any(word.endswith("skin:person.glb") for word in words):
+        problem = run([PROGRAM, "urdf", "--out", "person.glb"], folder)
+        if problem:
+            return problem
     if "marks.jsonl" in words:
         write_marks(folder)
     if "rules.yaml" in words:
