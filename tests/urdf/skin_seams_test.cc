@@ -171,7 +171,7 @@ std::map<std::string, urdf::JointAngles> Postures() {
 // How much more than the bind pose itself, whose lips and ears count, a posture may have. Both are
 // also folds as people have them: the most steps are in the groins of a squatting man (0.46), the
 // creases in hollows of knees, too.
-constexpr double kMoreSteps = 0.55, kMoreCreases = 2.0;
+constexpr double kMoreSteps = 0.45, kMoreCreases = 2.0;
 
 urdf::LinkPoses Posed(const urdf::JointAngles& angles) {
   return urdf::ForwardKinematics(urdf::DefaultSkeleton(), {}, angles);
