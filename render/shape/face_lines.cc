@@ -34,7 +34,8 @@ FaceCurve Rounded(const FaceCurve& curve) {
   constexpr int kPieces = 8;
   FaceCurve round;
   for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-    const Vector2d b = curve[i], c = curve[i + 1];
+    const Vector2d& b = curve[i];
+    const Vector2d& c = curve[i + 1];
     const Vector2d a = i > 0 ? curve[i - 1] : Vector2d(2 * b - c);
     const Vector2d d = i + 2 < curve.size() ? curve[i + 2] : Vector2d(2 * c - b);
     for (int piece = 0; piece < kPieces; ++piece) {
