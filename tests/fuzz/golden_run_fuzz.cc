@@ -68,7 +68,7 @@ void TryRun(const std::string& text) {
     TryAccepted(*each.now);
     KINESCOPE_CHECK(each.name.find('/') == std::string::npos);
   }
-  ReportSettings settings{"/proc/nowhere", "/proc/nowhere"};
+  ReportSettings settings{"/proc/nowhere", "/proc/nowhere", "/proc/nowhere"};
   settings.version = run.version;
   settings.review = ReviewedPage{"token", "nonce"};
   const std::string page = GoldenReport(run.verdicts, settings);
