@@ -26,7 +26,7 @@ struct BesideLayout {
   std::vector<double> columns;            // widths
   std::vector<std::string> title, notes;  // one per line
   bool has_notes_beside_title;
-  bool has_scales;  // beside the names of arrows
+  bool has_scales;       // beside the names of arrows
   double width, height;  // of all of it
 };
 
