@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "server/app/golden/golden_jobs.h"
 #include "server/app/golden/golden_suite.h"
