@@ -2,6 +2,7 @@
 
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/system/starts_with.h"
@@ -33,22 +34,22 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
 
 }  // namespace
 
-int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
-  int refused = 0;
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    if (!IsGood(transform)) {
-      ++refused;
-    } else if (buffer_.setTransform(transform, "/tf", is_static)) {
-      if (!is_static) too_old_in_a_row_ = 0;
-    } else if (++too_old_in_a_row_ >= kTooOldForAJump) {
-      buffer_.clear();  // static ones stay
-      too_old_in_a_row_ = 0;
-      refused += buffer_.setTransform(transform, "/tf", is_static) ? 0 : 1;
-    } else {
-      ++refused;
-    }
+bool TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
+  if (!IsGood(transform)) return false;
+  if (buffer_.setTransform(transform, "/tf", is_static)) {
+    if (!is_static) too_old_in_a_row_ = 0;
+    return true;
   }
-  return refused;
+  if (++too_old_in_a_row_ < kTooOldForAJump) return false;
+  buffer_.clear();  // static ones stay
+  too_old_in_a_row_ = 0;
+  return buffer_.setTransform(transform, "/tf", is_static);
+}
+
+int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
+  return static_cast<int>(std::count_if(
+      message.transforms.begin(), message.transforms.end(),
+      [&](const geometry_msgs::TransformStamped& each) { return !Take(each, is_static); }));
 }
 
 std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::string& frame,

@@ -2,6 +2,7 @@
 /// frame in /tf. One thread.
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -28,6 +29,8 @@ class TfTree {
                                  std::int64_t stamp_nanos) const;
 
  private:
+  bool Take(const geometry_msgs::TransformStamped& transform, bool is_static);
+
   tf2::BufferCore buffer_;
   int too_old_in_a_row_ = 0;
 };

@@ -110,8 +110,8 @@ std::string FirstDifference(const render::Image& before, const render::Image& no
     ++pixels;
     first = i / 4;
   }
-  const auto x_px = static_cast<double>(first % now.width),
-             y_px = static_cast<double>(first / now.width);
+  const std::int64_t column = first % now.width, row = first / now.width;
+  const auto x_px = static_cast<double>(column), y_px = static_cast<double>(row);
   const auto nearest = std::min_element(
       facts.objects.begin(), facts.objects.end(), [&](const ObjectFact& a, const ObjectFact& b) {
         return DistanceTo(a, x_px, y_px) < DistanceTo(b, x_px, y_px);
