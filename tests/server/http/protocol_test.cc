@@ -80,7 +80,7 @@ void ExpectPerson(Reader& in, const PersonState& person, double floor_z) {
     EXPECT_EQ(in.Get<std::uint8_t>(), load.joint);
     EXPECT_EQ(in.Get<std::uint8_t>(), static_cast<int>(load.load_class));
     const double radius = in.Get<std::uint16_t>() / 1000.0;
-    EXPECT_NEAR(radius, SphereRadius(load.joint, load.load_class, *person.model), 0.0005);
+    EXPECT_NEAR(radius, SphereRadius(load.joint, load.load_class, *person.model), 0.000501);
     EXPECT_LT((in.GetVector() - load.position).norm(), 1e-6);
     for (const double value : {load.ratio, load.deciding_moment, load.capacity}) {
       const float sent = in.Get<float>();
