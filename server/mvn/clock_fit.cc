@@ -1,9 +1,9 @@
 #include "server/mvn/clock_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "core/system/clocks.h"
 
@@ -64,17 +64,18 @@ void ClockFit::Advance(std::uint32_t counter, std::uint32_t time_code_millis) {
 
 // The median of the slopes of all pairs (Theil and Sen): a few slow samples do not change it.
 void ClockFit::MeasureDrift() {
-  std::vector<double> slopes;
+  std::array<double, kBuckets*(kBuckets - 1) / 2> slopes{};
+  std::size_t count = 0;
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     for (std::size_t k = i + 1; k < minima_.size(); ++k) {
       const double sent = minima_[k].sender_nanos - minima_[i].sender_nanos;
-      if (sent > 0) slopes.push_back((minima_[k].offset - minima_[i].offset) / sent);
+      if (sent > 0) slopes[count++] = (minima_[k].offset - minima_[i].offset) / sent;
     }
   }
   drift_ = 0;
-  if (minima_.size() < kMinimaForDrift || slopes.empty()) return;
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
+  if (minima_.size() < kMinimaForDrift || count == 0) return;
+  double* const middle = slopes.data() + count / 2;
+  std::nth_element(slopes.data(), middle, slopes.data() + count);
   if (*middle > kDrift) drift_ = *middle;
 }
 
@@ -93,8 +94,9 @@ double ClockFit::SmallestOffset(double offset, std::int64_t now) {
     drift_ = 0;
   }
   if (minima_.empty() || now - minima_.back().began >= kBucketNanos) {
+    minima_.reserve(kBuckets);  // once: nothing is allocated per sample
+    if (minima_.size() == kBuckets) minima_.erase(minima_.begin());
     minima_.push_back({offset, sender_nanos, now});
-    if (minima_.size() > kBuckets) minima_.pop_front();
     MeasureDrift();
   } else if (offset - drift_ * (sender_nanos - minima_.back().sender_nanos) <
              minima_.back().offset) {

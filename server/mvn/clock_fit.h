@@ -17,8 +17,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <vector>
 
 #include "server/mvn/arrival.h"
 
@@ -53,8 +53,8 @@ class ClockFit {
     double sender_nanos = 0;  // the sender's clock at it
     std::int64_t began = 0;   // of its quarter of a second; monotonic clock, ns
   };
-  std::deque<Minimum> minima_;  // of each quarter of a second, the newest one at the end
-  double drift_ = 0;            // of the offset, s per second of the sender's clock
+  std::vector<Minimum> minima_;  // of each quarter of a second, the newest one at the end
+  double drift_ = 0;             // of the offset, s per second of the sender's clock
   std::optional<std::int64_t> last_stamp_;
   std::int64_t last_wall_ = 0;
 };

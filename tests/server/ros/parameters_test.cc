@@ -2,6 +2,7 @@
 // (bridge_fixture.h).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <future>
 
@@ -175,7 +176,7 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
     return MasterClient().Call(method, arguments).value;
   };
   // What a bridge called /suit tells the master, and one of its topics.
-  XmlRpc::XmlRpcValue description, published, topic;
+  XmlRpc::XmlRpcValue description, published, topic, answer;
   description[0] = "/robot_description";
   description[1] = model_->urdf_xml + " ";
   published[0] = "/suit/published";
@@ -189,7 +190,8 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
   topic[3] = "http://127.0.0.1:1/";
   call("setParam", description);
   call("setParam", published);
-  call("registerPublisher", topic);
+  XmlRpc::XmlRpcClient suit("127.0.0.1", static_cast<int>(port_.number()));  // by its own name
+  ASSERT_TRUE(suit.execute("registerPublisher", topic, answer));
   BridgeConfig config;
   config.initial_model = model_;
   MakeBridge(config);
