@@ -190,7 +190,7 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
   topic[3] = "http://127.0.0.1:1/";
   call("setParam", description);
   call("setParam", published);
-  XmlRpc::XmlRpcClient suit("127.0.0.1", static_cast<int>(port_.number()));  // by its own name
+  XmlRpc::XmlRpcClient suit("127.0.0.1", port_.number());  // by its own name
   ASSERT_TRUE(suit.execute("registerPublisher", topic, answer));
   BridgeConfig config;
   config.initial_model = model_;
