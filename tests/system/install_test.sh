@@ -41,7 +41,8 @@ export ROS_HOME=$room/ros ROS_IP=127.0.0.1 ROS_PACKAGE_PATH=$room/opt/share:/usr
 unset ROS_HOSTNAME CMAKE_PREFIX_PATH
 printf '#include <kinescope/JointLoadArray.h>\n#include <kinescope/SetHandLoad.h>\nkinescope::JointLoadArray loads;\n' > use.cc
 g++ -std=c++17 -fsyntax-only -I "$room/opt/include" use.cc || fail "the installed headers of our messages cannot be used"
-/usr/bin/python3 "$(command -v rosmsg)" show kinescope/JointLoadArray | grep -q joint || fail "rosmsg does not know kinescope/JointLoadArray"
+/usr/bin/python3 "$(command -v rosmsg)" show kinescope/JointLoadArray > show.txt || fail "rosmsg does not know kinescope/JointLoadArray"
+grep -q joint show.txt || fail "rosmsg shows another message: $(cat show.txt)"
 /usr/bin/python3 "$(command -v rossrv)" show kinescope/SetHandLoad > /dev/null || fail "rossrv does not know kinescope/SetHandLoad"
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
 export ROS_MASTER_URI=http://127.0.0.1:$port
