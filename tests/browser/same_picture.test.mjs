@@ -118,9 +118,12 @@ function found(one, other, leftOut, { width }) {
   return { share: pixels.filter((i) => beside.some((step) => other[i + step])).length / pixels.length, count: pixels.length };
 }
 
-/** What is left out: a snapshot has a legend and texts on its sides. */
-const onlyMiddle = ({ width, height }) => new Uint8Array(width * height).map((_, i) =>
-  (Math.abs(i % width - width / 2) > 0.25 * width || Math.floor(i / width) < 0.1 * height ? 1 : 0));
+/** What is left out: a snapshot has texts on its sides, and a legend in the lower left corner, which names the markers. */
+const onlyMiddle = ({ width, height }) => new Uint8Array(width * height).map((_, i) => {
+  const x = i % width, y = Math.floor(i / width);
+  const isLegend = x < 0.4 * width && y > 0.4 * height;
+  return isLegend || Math.abs(x - width / 2) > 0.25 * width || y < 0.1 * height ? 1 : 0;
+});
 
 /** Pixels of the fourth colour of trails, a pale blue that nothing else has; low loads are more green than blue. */
 const paleBlue = ({ data }) => data.reduce((count, red, i) => {
