@@ -26,9 +26,12 @@ Quaterniond AlongZ(const Vector3d& direction) {
 
 class Maker {
  public:
+  /// Whose solids those are that are added from here on.
+  void SetHand(std::optional<urdf::Side> hand) { hand_ = hand; }
+
   void Add(HandLoadSolid::Kind kind, const Vector3d& position, const Quaterniond& turn,
            const Vector3d& size) {
-    held_.solids[held_.count++] = {kind, {position, turn}, size};
+    held_.solids[held_.count++] = {kind, {position, turn}, size, hand_};
   }
   void AddCylinder(const Vector3d& position, const Quaterniond& turn, double radius,
                    double length) {
@@ -68,6 +71,7 @@ class Maker {
 
  private:
   HandLoadShape held_;
+  std::optional<urdf::Side> hand_;
 };
 
 }  // namespace
@@ -81,6 +85,7 @@ HandLoadShape ShapeOfHandLoad(const PersonState& person) {
     const double alone_kg = hand.mass_kg - hand.shared_kg;
     if (!(alone_kg > kMinKg) || person.model->human.tools.test(side)) continue;
     const urdf::Pose& link = person.links[urdf::At(urdf::HandSegmentOf(side))];
+    maker.SetHand(side);
     if ((hand.point - hand.grip).norm() < kInTheFist) {
       maker.AddDumbbell(hand.point, link.orientation, alone_kg);
     } else {
@@ -88,6 +93,7 @@ HandLoadShape ShapeOfHandLoad(const PersonState& person) {
     }
   }
   if (shared_kg > kMinKg) {
+    maker.SetHand(std::nullopt);
     maker.AddBox(person.forces.hands[urdf::kRight].grip, person.forces.hands[urdf::kLeft].grip,
                  shared_kg);
   }

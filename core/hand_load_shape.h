@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "core/palette.h"
 #include "core/scene_state.h"
@@ -21,6 +22,7 @@ struct HandLoadSolid {
   Kind kind = Kind::kBox;
   urdf::Pose pose;                                 // world_from_solid
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  // m: edges; or radius, radius, length
+  std::optional<urdf::Side> hand = {};             // nullopt: both
 };
 
 /// A bar with two discs in each hand, and one box.

@@ -66,7 +66,8 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     to.labels.push_back(TextOf(marker));
     return;
   }
-  urdf::Mesh& mesh = IsTranslucent(marker) ? to.blended : to.solid;
+  const bool is_blended = IsTranslucent(marker);
+  urdf::Mesh& mesh = is_blended ? to.blended : to.solid;
   const std::size_t first = mesh.positions.size();
   if (marker.type == MarkerType::kMesh) {
     AddMesh(marker, mesh, to);
@@ -77,7 +78,12 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
   }
   if (mesh.positions.size() == first) return;
   Eigen::AlignedBox3f& box = to.boxes.emplace_back();
-  for (std::size_t i = first; i < mesh.positions.size(); ++i) box.extend(mesh.positions[i]);
+  std::vector<std::string>& names = is_blended ? to.blended_names : to.solid_names;
+  for (std::size_t i = first; i < mesh.positions.size(); ++i) {
+    box.extend(mesh.positions[i]);
+    mesh.parts[i] = static_cast<float>(names.size());
+  }
+  names.push_back(IdentityOf(marker));
 }
 
 const VisualMesh& MarkerReader::MeshOf(const std::string& uri) {

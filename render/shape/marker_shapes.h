@@ -17,8 +17,10 @@ namespace kinescope::render {
 
 struct MarkerShapes {
   urdf::Mesh solid,
-      blended;            // with their colours; `blended`: markers that let others shine through
-  bool is_closed = true;  // no surface of `solid` is visible from its back
+      blended;  // with their colours; `blended`: markers that let others shine through;
+                // the part of a vertex is the index of its marker's name
+  std::vector<std::string> solid_names, blended_names;  // "walls/3"
+  bool is_closed = true;                   // no surface of `solid` is visible from its back
   std::vector<Eigen::AlignedBox3f> boxes;  // around each marker with triangles
   std::vector<Label> labels;               // texts, and the names of missing meshes
   /// Markers that are not shown, or whose mesh is replaced by a box: one line each, with the marker

@@ -40,8 +40,10 @@ ForceArrows::ForceArrows()
   ghost_.SetOpacity(kGhostForceOpacity);
 }
 
-urdf::Side ForceArrows::SideOf(int part) {
-  return part < kPartsOfArrow ? urdf::kRight : urdf::kLeft;
+std::vector<std::string> ForceArrows::Names() {
+  std::vector<std::string> names(kParts, "force on the right foot");
+  std::fill(names.begin() + kPartsOfArrow * urdf::kLeft, names.end(), "force on the left foot");
+  return names;
 }
 
 void ForceArrows::Show(const PersonState& person, std::vector<Label>* labels) {

@@ -2,6 +2,7 @@
 /// 1000 N (kMetresPerNewton). An unknown force has no arrow.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -17,8 +18,8 @@ class ForceArrows {
   /// With `labels`: adds the force of each arrow in N.
   void Show(const PersonState& person, std::vector<Label>* labels);
 
-  /// Whose foot's arrow a part of solid() and ghost() is of.
-  static urdf::Side SideOf(int part);
+  /// By part of solid() and ghost(): "force on the right foot".
+  static std::vector<std::string> Names();
 
   vtkActor* solid() { return solid_.actor(); }
   /// The ghost is where the solid is.

@@ -1,5 +1,7 @@
 #include "render/vtk/ghost_actors.h"
 
+#include <algorithm>
+
 #include "core/palette.h"
 
 namespace kinescope::render {
@@ -32,6 +34,15 @@ std::vector<vtkActor*> GhostActors::actors() {
     for (vtkActor* actor : body->actors()) actors.push_back(actor);
   }
   return actors;
+}
+
+int GhostActors::IndexOf(const vtkActor* actor) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto actors = bodies_[i]->actors();
+    const bool is_of = std::find(actors.begin(), actors.end(), actor) != actors.end();
+    if (is_of) return static_cast<int>(i);
+  }
+  return -1;
 }
 
 void GhostActors::AddTo(PictureRegion& region) const {

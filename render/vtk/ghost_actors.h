@@ -16,6 +16,8 @@ class GhostActors {
   /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
   bool Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
+  /// Of the pose that an actor is of; -1: of none.
+  int IndexOf(const vtkActor* actor);
   void AddTo(PictureRegion& region) const;
 
  private:

@@ -55,17 +55,20 @@ double MetresPerPixel(const PersonState& person, const Camera& camera, int heigh
 
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
 
-std::string TextOf(GLenum name) {
+std::string GlText(GLenum name) {
   const auto* found = reinterpret_cast<const char*>(glGetString(name));
   return found != nullptr ? found : "unknown";
 }
 
-constexpr char kShadowName[] = "shadow";
-
-struct NamedActor {
+struct ListedActor {
   vtkActor* actor;
-  std::string name;
   int character;  // of the person; -1: it belongs to none
+};
+
+// A thing of the picture.
+struct Named {
+  std::string name;
+  int character;
 };
 
 // Sums up the places; Seen() divides them.
@@ -109,7 +112,7 @@ class GlDrawing : public Drawing {
     people_layer_->SetLayer(1);
     window_->Render();  // of nothing: initialises GLEW, under the lock
     LogGlMessages(once_);
-    is_software_ = IsSoftware(TextOf(GL_RENDERER));
+    is_software_ = IsSoftware(GlText(GL_RENDERER));
     pixels_ = std::make_unique<PixelReader>(window_);
     ground_ = std::make_unique<Ground>();
     markers_ = std::make_unique<MarkerActors>();
@@ -129,7 +132,7 @@ class GlDrawing : public Drawing {
 
   Driver driver() const override {
     context_->MakeCurrent();
-    return {TextOf(GL_RENDERER), TextOf(GL_VERSION),
+    return {GlText(GL_RENDERER), GlText(GL_VERSION),
             std::string("VTK ") + vtkVersion::GetVTKVersion()};
   }
 
@@ -182,8 +185,8 @@ class GlDrawing : public Drawing {
     AimCamera(camera);
     Image numbers;
     SetSize(numbers, width, height);
-    DrawNumbers(camera, numbers);
-    return Seen(numbers);
+    const std::vector<Named> named = DrawNumbers(camera, numbers);
+    return Seen(numbers, named);
   }
 
  private:
@@ -251,61 +254,83 @@ class GlDrawing : public Drawing {
   }
 
   // In the order of rendering.
-  std::vector<NamedActor> Actors() {
-    std::vector<NamedActor> all;
-    const auto add = [&](vtkActor* actor, const std::string& name, int character = -1) {
-      all.push_back({actor, name, character});
+  std::vector<ListedActor> Actors() {
+    std::vector<ListedActor> all;
+    const auto add = [&](vtkActor* actor, int character = -1) {
+      all.push_back({actor, character});
     };
-    for (const auto& [id, person] : people_) add(person->shadow(), kShadowName, id);
-    for (const auto& robot : robots_) add(robot->shadow(), kShadowName);
+    for (const auto& [id, person] : people_) add(person->shadow(), id);
+    for (const auto& robot : robots_) add(robot->shadow());
     for (const auto& [id, person] : people_) {
-      for (vtkActor* body : person->bodies()) add(body, "body", id);
-      add(person->held(), "load in the hands", id);
+      for (vtkActor* body : person->bodies()) add(body, id);
+      add(person->held(), id);
     }
-    for (vtkActor* object : objects_.actors()) add(object, "objects");
-    for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const std::string name = "robot " + std::to_string(i + 1);
-      for (vtkActor* body : robots_[i]->bodies()) add(body, name);
+    for (vtkActor* object : objects_.actors()) add(object);
+    for (const auto& robot : robots_) {
+      for (vtkActor* body : robot->bodies()) add(body);
     }
-    add(markers_->solid(), "markers");
-    add(trails_->actor(), "trails");
+    add(markers_->solid());
+    add(trails_->actor());
     for (const auto& [id, person] : people_) {
-      for (vtkActor* ghost : person->ghosts()) add(ghost, "marks", id);
+      for (vtkActor* ghost : person->ghosts()) add(ghost, id);
     }
     for (const auto& [id, person] : people_) {
-      for (vtkActor* mark : person->marks()) add(mark, "marks", id);
+      for (vtkActor* mark : person->marks()) add(mark, id);
     }
-    add(markers_->blended(), "markers");
-    for (vtkActor* ghost : ghosts_.actors()) add(ghost, "reference poses");
+    add(markers_->blended());
+    for (vtkActor* ghost : ghosts_.actors()) add(ghost);
     return all;
   }
 
   void ListActors() {
     people_layer_->RemoveAllViewProps();
-    names_ = Actors();
-    for (const NamedActor& each : names_) people_layer_->AddActor(each.actor);
+    listed_ = Actors();
+    for (const ListedActor& each : listed_) people_layer_->AddActor(each.actor);
   }
 
-  // Of a part of an actor; "": it has none of its own.
-  std::string NameOfPart(const NamedActor& named, int part) const {
-    const auto person = people_.find(named.character);
-    return person != people_.end() ? person->second->NameOf(named.actor, part) : "";
+  // By part; one name: the actor is one thing; none: it is no thing of its own, such as a shadow.
+  std::vector<std::string> NamesOf(const ListedActor& listed) {
+    if (const auto person = people_.find(listed.character); person != people_.end()) {
+      return person->second->NamesOf(listed.actor);
+    }
+    if (listed.actor == trails_->actor()) return trails_->names();
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const auto bodies = robots_[i]->bodies();
+      const bool is_of = std::find(bodies.begin(), bodies.end(), listed.actor) != bodies.end();
+      if (is_of) return {"robot " + std::to_string(i + 1)};
+    }
+    if (const int ghost = ghosts_.IndexOf(listed.actor); ghost >= 0) {
+      return {"reference pose " + std::to_string(ghost + 1)};
+    }
+    std::vector<std::string> names = objects_.NamesOf(listed.actor);
+    return names.empty() ? markers_->NamesOf(listed.actor) : names;
   }
 
-  // The number of each pixel as its colour; nothing and shadows: 0.
-  void DrawNumbers(const Camera& camera, Image& image) {
+  // For a message.
+  std::string TextOf(const ListedActor& listed) {
+    const std::vector<std::string> names = NamesOf(listed);
+    const std::string name = names.empty()      ? "shadow"
+                             : names.size() > 1 ? names.front() + " and its like"
+                                                : names.front();
+    return listed.character < 0 ? name : name + " of person " + std::to_string(listed.character);
+  }
+
+  // The number of each pixel as its colour, 0: nothing. @return what the numbers from 1 on are.
+  std::vector<Named> DrawNumbers(const Camera& camera, Image& image) {
+    std::vector<Named> all;
     std::vector<std::unique_ptr<NumberShader>> shaders;
     std::vector<vtkActor*> hidden;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      vtkActor* const actor = names_[i].actor;
-      if (!actor->GetVisibility()) continue;
-      if (names_[i].name == kShadowName) {
-        actor->VisibilityOff();
-        hidden.push_back(actor);
+    for (const ListedActor& listed : listed_) {
+      if (!listed.actor->GetVisibility()) continue;
+      const std::vector<std::string> names = NamesOf(listed);
+      if (names.empty()) {
+        listed.actor->VisibilityOff();
+        hidden.push_back(listed.actor);
         continue;
       }
-      const int first = 1 + kNumbersPerActor * static_cast<int>(i);
-      shaders.push_back(std::make_unique<NumberShader>(actor, first));
+      const int first = 1 + static_cast<int>(all.size());
+      shaders.push_back(std::make_unique<NumberShader>(listed.actor, first, names.size() > 1));
+      for (const std::string& name : names) all.push_back({name, listed.character});
     }
     std::fill(image.rgba.begin(), image.rgba.end(), std::uint8_t{0});
     image.floor = nullptr;
@@ -321,25 +346,24 @@ class GlDrawing : public Drawing {
       }
     }
     for (vtkActor* actor : hidden) actor->VisibilityOn();
+    return all;
   }
 
-  std::vector<SeenObject> Seen(const Image& numbers) const {
+  static std::vector<SeenObject> Seen(const Image& numbers, const std::vector<Named>& named) {
     std::map<std::pair<int, std::string>, SeenObject> seen;  // by person and name
-    std::map<int, SeenObject*> by_number;
+    std::vector<SeenObject*> by_number(named.size(), nullptr);
     std::size_t at = 0;
     for (int y = 0; y < numbers.height; ++y) {
       for (int x = 0; x < numbers.width; ++x, at += 4) {
         const PixelNumber pixel = NumberOf(&numbers.rgba[at]);
         if (pixel.number == 0) continue;
-        SeenObject*& object = by_number[pixel.number];
+        const auto index = static_cast<std::size_t>(pixel.number - 1);
+        SeenObject*& object = by_number.at(index);
         if (object == nullptr) {
-          const int index = pixel.number - 1;
-          const NamedActor& actor = names_.at(static_cast<std::size_t>(index / kNumbersPerActor));
-          const std::string part = NameOfPart(actor, index % kNumbersPerActor);
-          const std::string& name = part.empty() ? actor.name : part;
-          object = &seen[{actor.character, name}];
+          const auto& [name, character] = named[index];
+          object = &seen[{character, name}];
           object->name = name;
-          object->character = actor.character;
+          object->character = character;
         }
         AddPixel(x, y, pixel.is_through, *object);
       }
@@ -413,13 +437,12 @@ class GlDrawing : public Drawing {
     if (differs.first == whole.rgba.end()) return;
     const std::ptrdiff_t pixel = (differs.first - whole.rgba.begin()) / 4;
     std::string said;
-    for (const auto& [actor, what, character] : names_) {
-      if (!actor->GetVisibility()) continue;
-      const std::string name =
-          character < 0 ? what : what + " of person " + std::to_string(character);
-      actor->VisibilityOff();
+    for (const ListedActor& listed : listed_) {
+      if (!listed.actor->GetVisibility()) continue;
+      const std::string name = TextOf(listed);
+      listed.actor->VisibilityOff();
       draw(without);
-      actor->VisibilityOn();
+      listed.actor->VisibilityOn();
       const auto at = whole.rgba.begin() + 4 * pixel;
       const bool is_there = !std::equal(at, at + 4, without.rgba.begin() + 4 * pixel);
       if (is_there && said.find(name) == std::string::npos) {
@@ -551,8 +574,8 @@ class GlDrawing : public Drawing {
   bool is_listed_ = false;
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
-  std::vector<NamedActor> names_;                     // of the people layer, for people
-  int checkable_ = 0;                                 // pictures
+  std::vector<ListedActor> listed_;
+  int checkable_ = 0;  // pictures
   bool is_software_ = false;
 };
 

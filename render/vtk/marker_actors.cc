@@ -30,6 +30,8 @@ void MarkerActors::Build() {
   if (!shapes.blended.triangles.empty()) blended_.SetMesh(shapes.blended);
   solid_.SetCulling(shapes.is_closed);
   boxes_ = std::move(shapes.boxes);
+  solid_names_ = std::move(shapes.solid_names);
+  blended_names_ = std::move(shapes.blended_names);
   labels_ = std::move(shapes.labels);
   problems_ = std::move(shapes.problems);
 }
@@ -42,6 +44,13 @@ void MarkerActors::Update(const std::vector<std::shared_ptr<const SceneMarker>>&
     for (const std::string& problem : problems_) log(problem);
   }
   labels.insert(labels.end(), labels_.begin(), labels_.end());
+}
+
+std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
+  if (actor != solid() && actor != blended()) return {};
+  std::vector<std::string> names = actor == solid() ? solid_names_ : blended_names_;
+  for (std::string& name : names) name.insert(0, "marker ");
+  return names;
 }
 
 void MarkerActors::AddTo(PictureRegion& region) const {

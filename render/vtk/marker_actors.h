@@ -28,6 +28,8 @@ class MarkerActors {
   const std::vector<std::string>& problems() const { return problems_; }
   vtkActor* solid() { return solid_.actor(); }
   vtkActor* blended() { return blended_.actor(); }
+  /// By part of one of these actors: "marker walls/3".
+  std::vector<std::string> NamesOf(const vtkActor* actor);
   void AddTo(PictureRegion& region) const;
 
  private:
@@ -38,6 +40,7 @@ class MarkerActors {
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused
   std::vector<Eigen::AlignedBox3f> boxes_;                   // around each of them, world
+  std::vector<std::string> solid_names_, blended_names_;
   std::vector<Label> labels_;
   std::vector<std::string> problems_;
 };

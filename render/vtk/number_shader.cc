@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kDeclarations[] = "//VTK::Color::Dec", kVertexEnd[] = "//VTK::CustomEnd::Impl",
                kFragment[] = "//VTK::Light::Impl", kReturn[] = "  return;\n",
-               kFirst[] = "firstNumber", kPartAttribute[] = "in float part;";
+               kFirst[] = "firstNumber";
 constexpr int kThrough = 128;  // in the blue byte
 
 // What the actor's own text makes fully transparent stays so.
@@ -29,7 +29,7 @@ PixelNumber NumberOf(const std::uint8_t* rgba) {
   return {rgba[0] | rgba[1] << 8 | (rgba[2] & (kThrough - 1)) << 16, (rgba[2] & kThrough) != 0};
 }
 
-NumberShader::NumberShader(vtkActor* actor, int first) : actor_(actor) {
+NumberShader::NumberShader(vtkActor* actor, int first, bool by_part) : actor_(actor) {
   vtkShaderProperty* const shader = actor->GetShaderProperty();
   for (vtkIdType i = 0; i < shader->GetNumberOfShaderReplacements(); ++i) {
     Text text;
@@ -44,12 +44,8 @@ NumberShader::NumberShader(vtkActor* actor, int first) : actor_(actor) {
     if (text.token == kDeclarations) {
       text.replacement += text.is_vertex ? "flat out int numberVS;\n" : "flat in int numberVS;\n";
     } else if (text.token == kVertexEnd) {
-      bool has_parts = false;
-      for (const Text& other : before_) {
-        has_parts = has_parts || other.replacement.find(kPartAttribute) != std::string::npos;
-      }
       text.replacement +=
-          std::string("  numberVS = ") + kFirst + (has_parts ? " + int(part + 0.5);\n" : ";\n");
+          std::string("  numberVS = ") + kFirst + (by_part ? " + int(part + 0.5);\n" : ";\n");
     } else if (text.token == kFragment) {
       const std::size_t end = text.replacement.rfind(kReturn);
       KINESCOPE_CHECK(end != std::string::npos);

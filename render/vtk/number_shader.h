@@ -12,9 +12,6 @@ class vtkActor;
 
 namespace kinescope::render {
 
-/// Numbers of the parts of an actor: `first`, `first` + 1, ...
-inline constexpr int kNumbersPerActor = 64;
-
 struct PixelNumber {
   int number = 0;           // 0: nothing
   bool is_through = false;  // it shines through what is in front
@@ -26,8 +23,9 @@ PixelNumber NumberOf(const std::uint8_t* rgba);
 /// For as long as it lives. While the context of the actor's window is current; one thread.
 class NumberShader {
  public:
-  /// `first` from 1. @pre the actor is that of a ShadedActor
-  NumberShader(vtkActor* actor, int first);
+  /// `first` from 1; `by_part`: the parts of the actor are `first`, `first` + 1, ...
+  /// @pre the actor is that of a ShadedActor
+  NumberShader(vtkActor* actor, int first, bool by_part);
   ~NumberShader();
   NumberShader(const NumberShader&) = delete;
   NumberShader& operator=(const NumberShader&) = delete;

@@ -1,5 +1,7 @@
 #include "render/vtk/object_actors.h"
 
+#include <algorithm>
+
 #include "core/palette.h"
 
 namespace kinescope::render {
@@ -49,6 +51,7 @@ bool ObjectActors::Update(const std::vector<TrackedObject>& objects, Liveness li
   const Eigen::Vector4f stale(static_cast<float>(kStaleBodyColor[0]),
                               static_cast<float>(kStaleBodyColor[1]),
                               static_cast<float>(kStaleBodyColor[2]), 1);
+  names_.clear();
   for (std::size_t i = 0; i < groups * kObjectsPerActor; ++i) {
     PartActor& actor = *groups_[i / kObjectsPerActor];
     const int part = static_cast<int>(i % kObjectsPerActor);
@@ -58,6 +61,7 @@ bool ObjectActors::Update(const std::vector<TrackedObject>& objects, Liveness li
     }
     const urdf::Pose& pose = objects[i].pose;
     actor.Place(part, Eigen::Translation3d(pose.position) * pose.orientation);
+    names_.push_back(objects[i].name);
     labels.push_back({pose.position + Eigen::Vector3d(0, 0, kLabelHeight), objects[i].name});
   }
   for (const auto& group : groups_) {
@@ -72,6 +76,18 @@ std::vector<vtkActor*> ObjectActors::actors() {
   std::vector<vtkActor*> actors;
   for (const auto& group : groups_) actors.push_back(group->actor());
   return actors;
+}
+
+std::vector<std::string> ObjectActors::NamesOf(const vtkActor* actor) {
+  std::vector<std::string> names;
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    if (groups_[group]->actor() != actor) continue;
+    const std::size_t first = group * kObjectsPerActor;
+    for (std::size_t i = first; i < std::min(names_.size(), first + kObjectsPerActor); ++i) {
+      names.push_back("object " + names_[i]);
+    }
+  }
+  return names;
 }
 
 void ObjectActors::AddTo(PictureRegion& region) const {

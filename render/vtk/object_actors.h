@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -18,10 +19,13 @@ class ObjectActors {
   bool Update(const std::vector<TrackedObject>& objects, Liveness liveness,
               std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
+  /// By part of one of these actors: "object box"; empty: it is none of them.
+  std::vector<std::string> NamesOf(const vtkActor* actor);
   void AddTo(PictureRegion& region) const;
 
  private:
   std::vector<std::unique_ptr<PartActor>> groups_;  // each with the objects of one draw call
+  std::vector<std::string> names_;
 };
 
 }  // namespace kinescope::render

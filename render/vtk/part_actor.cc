@@ -5,11 +5,12 @@
 namespace kinescope::render {
 namespace {
 
-ShaderText PartText(PartActor::Light light) {
+ShaderText PartText(PartActor::Light light, int part_count) {
   ShaderText text;
   text.vertex_declarations = "out vec4 tintVS;\nout float skyVS;\nout vec2 partVS;\n";
-  text.vertex = R"(
-  mat4 worldFromPart = worldFromParts[int(part + 0.5)];
+  text.vertex = part_count == 1 ? "  mat4 worldFromPart = worldFromParts[0];\n"
+                                : "  mat4 worldFromPart = worldFromParts[int(part + 0.5)];\n";
+  text.vertex += R"(
   gl_Position = MCDCMatrix * (worldFromPart * vertexMC);
   vec3 normalWorld = normalize(mat3(worldFromPart) * normalMC + vec3(0.0, 0.0, 1e-20));
   normalVCVSOutput = normalMatrix * normalWorld;
@@ -41,7 +42,7 @@ ShaderText PartText(PartActor::Light light) {
 }  // namespace
 
 PartActor::PartActor(Pass pass, Light light, int part_count)
-    : shaded_(pass, PartText(light)),
+    : shaded_(pass, PartText(light, part_count)),
       world_from_part_(static_cast<std::size_t>(part_count), Eigen::Matrix4f::Zero()) {
   KINESCOPE_CHECK(part_count >= 1 && part_count <= static_cast<int>(kMaxParts));
   Commit();  // the uniforms' declarations become part of the shader
@@ -50,7 +51,8 @@ PartActor::PartActor(Pass pass, Light light, int part_count)
 void PartActor::SetMesh(const urdf::Mesh& mesh) {
   boxes_.assign(world_from_part_.size(), Eigen::AlignedBox3f());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    boxes_.at(static_cast<std::size_t>(mesh.parts[i])).extend(mesh.positions[i]);
+    const std::size_t part = boxes_.size() == 1 ? 0 : static_cast<std::size_t>(mesh.parts[i]);
+    boxes_.at(part).extend(mesh.positions[i]);
   }
   shaded_.SetMesh(mesh);
 }

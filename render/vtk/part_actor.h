@@ -25,6 +25,7 @@ class PartActor {
   /// @pre 1 <= part_count <= kMaxParts
   PartActor(Pass pass, Light light, int part_count);
 
+  /// With one part, the parts of the mesh do not matter: they may be numbers of anything.
   void SetMesh(const urdf::Mesh& mesh);
   void SetCulling(bool is_on) { shaded_.SetCulling(is_on); }
 

@@ -86,6 +86,11 @@ urdf::Mesh HeldMesh() {
   return all;
 }
 
+std::string HeldName(const HandLoadSolid& solid) {
+  if (!solid.hand) return "load in both hands";
+  return *solid.hand == urdf::kRight ? "load in the right hand" : "load in the left hand";
+}
+
 // What replaces the colours of a body, and its share.
 Eigen::Vector4f TintOf(const SceneLook& look, bool is_stale) {
   constexpr float kPaper = 0.88f;  // the borders of the suit stay visible
@@ -173,21 +178,26 @@ std::vector<vtkActor*> PersonActors::marks() {
   return actors;
 }
 
-std::string PersonActors::NameOf(const vtkActor* actor, int part) {
-  const auto is_of = [&](SphereActor& spheres) {
-    const auto actors = spheres.actors();
+std::vector<std::string> PersonActors::NamesOf(const vtkActor* actor) {
+  const auto is_of = [&](const auto& actors) {
     return std::find(actors.begin(), actors.end(), actor) != actors.end();
   };
-  if (is_of(spheres_) || is_of(ghost_spheres_)) {
-    return sphere_names_.at(static_cast<std::size_t>(part));
+  if (is_of(bodies())) return {"body"};
+  if (actor == held_.actor()) return held_names_;
+  if (is_of(spheres_.actors()) || is_of(ghost_spheres_.actors())) return sphere_names_;
+  if (actor == forces_.solid() || actor == forces_.ghost()) return ForceArrows::Names();
+  if (actor == marks_.actor() || actor == ghost_marks_.actor()) {
+    std::vector<std::string> names(kMarkParts, "support polygon");
+    names[kComRing] = names[kComLine] = "line of the centre of mass";
+    names[kCopEdge] = names[kCopDisc] = "centre of pressure";
+    return names;
   }
-  if (actor == forces_.solid() || actor == forces_.ghost()) {
-    return ForceArrows::SideOf(part) == urdf::kRight ? "force on the right foot"
-                                                     : "force on the left foot";
-  }
-  if (actor != marks_.actor() && actor != ghost_marks_.actor()) return "";
-  if (part == kComRing || part == kComLine) return "line of the centre of mass";
-  return part < kSupportEdge ? "centre of pressure" : "support polygon";
+  const auto is_axes = [&](const std::unique_ptr<AxesActor>& axes) {
+    return axes != nullptr && (is_of(axes->solids()) || is_of(axes->ghosts()));
+  };
+  if (is_axes(frames_)) return {"link frames"};
+  if (is_axes(joint_axes_)) return {"joint axes"};
+  return {};
 }
 
 // Made when they are asked for: most pictures have none. @return whether there are others now.
@@ -297,6 +307,7 @@ void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
   const HandLoadShape held = ShapeOfHandLoad(person);
   held_.actor()->SetVisibility(held.count > 0);
   if (held.count == 0) return;
+  held_names_.assign(kHeldParts, "");
   for (int part = 0; part < kHeldParts; ++part) held_.Hide(part);
   int cylinder = 0;
   for (std::size_t i = 0; i < held.count; ++i) {
@@ -304,7 +315,9 @@ void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
     const bool is_box = solid.kind == HandLoadSolid::Kind::kBox;
     Eigen::Affine3d place(Eigen::Translation3d(solid.pose.position) * solid.pose.orientation);
     place.scale(solid.size);
-    held_.Place(is_box ? kHeldBox : cylinder++, place);
+    const int part = is_box ? kHeldBox : cylinder++;
+    held_.Place(part, place);
+    held_names_[static_cast<std::size_t>(part)] = HeldName(solid);
   }
   held_.SetOverride(liveness == Liveness::kStale ? Color(kStaleBodyColor)
                                                  : Eigen::Vector4f(Eigen::Vector4f::Zero()));

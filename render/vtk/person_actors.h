@@ -45,9 +45,9 @@ class PersonActors {
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
-  /// Of a part of one of these actors as it was shown last: "left_knee", "centre of mass"; "": it
-  /// has no name of its own.
-  std::string NameOf(const vtkActor* actor, int part);
+  /// By part of one of these actors as it was shown last: "left_knee", "centre of mass". One name:
+  /// the actor is one thing. Empty: it is another's.
+  std::vector<std::string> NamesOf(const vtkActor* actor);
   /// Of all of them that are visible.
   void AddTo(PictureRegion& region) const;
 
@@ -68,6 +68,7 @@ class PersonActors {
   SphereActor ghost_spheres_, spheres_;
   std::vector<SphereLook> looks_;
   std::vector<std::string> sphere_names_;  // of each of looks_
+  std::vector<std::string> held_names_;    // by part
 };
 
 }  // namespace kinescope::render

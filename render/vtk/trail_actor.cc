@@ -14,6 +14,7 @@ constexpr int kSides = 8;
 
 void TrailActor::Show(const std::vector<Trail>& trails) {
   mesh_ = urdf::Mesh();
+  names_.clear();
   for (const Trail& trail : trails) {
     const Eigen::Vector4f color(static_cast<float>(trail.color[0]),
                                 static_cast<float>(trail.color[1]),
@@ -24,7 +25,8 @@ void TrailActor::Show(const std::vector<Trail>& trails) {
       const double share = (static_cast<double>(i) + 1) / static_cast<double>(trail.points.size());
       points.push_back({trail.points[i], kOldRadius + share * (kNewRadius - kOldRadius), color});
     }
-    AppendTube(points, kSides, 0, mesh_);
+    AppendTube(points, kSides, static_cast<int>(names_.size()), mesh_);
+    names_.push_back(trail.name.empty() ? "trail" : "trail of " + trail.name);
   }
   part_.actor()->SetVisibility(!mesh_.triangles.empty());
   if (mesh_.triangles.empty()) return;

@@ -2,6 +2,7 @@
 /// every picture, because the history is different in each.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/camera/picture_region.h"
@@ -15,11 +16,14 @@ class TrailActor {
   TrailActor() : part_(Pass::kSolid, PartActor::Light::kLit, 1) {}
   void Show(const std::vector<Trail>& trails);
   vtkActor* actor() { return part_.actor(); }
+  /// By part of the actor: "trail of left_hand".
+  const std::vector<std::string>& names() const { return names_; }
   void AddTo(PictureRegion& region) const;
 
  private:
   PartActor part_;
   urdf::Mesh mesh_;  // world
+  std::vector<std::string> names_;
 };
 
 }  // namespace kinescope::render

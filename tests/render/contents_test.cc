@@ -11,6 +11,7 @@
 #include "render/camera/spheres.h"
 #include "render/image/compare.h"
 #include "render/renderer.h"
+#include "tests/render/marker_samples.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::render {
@@ -64,6 +65,50 @@ TEST_F(Contents, AreTheThingsOfAPersonWhereTheyAre) {
   }
   const SeenObject& knee = seen.at("left_knee");
   EXPECT_GT(knee.pixels, 20) << "in front of the leg";
+}
+
+TEST_F(Contents, NameEachMarkerTrailLoadAndObject) {
+  SceneState state = MixedScene(Posture::kArmsForward);
+  std::vector<std::string> expected;
+  for (const SceneMarker& marker : testing::MarkersOfAllTypes("/missing.stl")) {
+    state.markers.push_back(std::make_shared<SceneMarker>(marker));
+    if (marker.type != MarkerType::kText) expected.push_back("marker " + IdentityOf(marker));
+  }
+  auto glass = std::make_shared<SceneMarker>(*state.markers.front());
+  glass->ns = "glass";
+  glass->color.w() = 0.5;
+  glass->pose.position.x() += 0.3;
+  state.markers.push_back(glass);
+  expected.emplace_back("marker glass/0");
+  const auto line = [](double y) {
+    return std::vector<Eigen::Vector3d>{{0.5, y, 0}, {0.5, y, 0.3}};
+  };
+  spec_.look.trails = {{line(0.6), {1, 0, 0}, "left_hand"}, {line(-0.6), {0, 0, 1}, "pelvis"}};
+  expected.insert(expected.end(), {"trail of left_hand", "trail of pelvis"});
+  PersonState& person = state.people.front();
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    HandForce& hand = person.forces.hands[side];
+    hand.mass_kg = 5 + 5 * side;
+    hand.grip = hand.point = person.links[urdf::At(urdf::HandSegmentOf(side))].position;
+    expected.emplace_back(side == urdf::kRight ? "load in the right hand"
+                                               : "load in the left hand");
+  }
+  for (int i = 0; i < 40; ++i) {  // more than one draw call takes
+    TrackedObject object;
+    object.name = "box " + std::to_string(i);
+    object.pose.position = {0.6, 0.9 - 0.045 * i, 0.2};
+    state.objects.push_back(object);
+    expected.push_back("object " + object.name);
+  }
+  spec_.look.shown.Set(ScenePart::kFrames, true);
+  expected.emplace_back("link frames");
+  const auto seen = ByName(Of(state));
+  for (const std::string& name : expected) EXPECT_EQ(seen.count(name), 1u) << name;
+  EXPECT_GT(seen.at("load in the right hand").x_px, 0);
+  // They face the camera: their left is on the right.
+  EXPECT_LT(seen.at("load in the right hand").x_px, seen.at("load in the left hand").x_px);
+  EXPECT_LT(seen.at("trail of pelvis").x_px, seen.at("trail of left_hand").x_px);
+  EXPECT_LT(seen.at("object box 39").x_px, seen.at("object box 0").x_px);
 }
 
 // Not what the scene has, but what the picture shows.
