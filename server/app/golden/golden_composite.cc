@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "render/canvas.h"
 #include "render/font.h"
@@ -16,7 +17,7 @@ using render::Image;
 using render::Tile;
 
 constexpr int kMargin = 16, kGap = 10, kTitlePx = 20, kTextPx = 14, kLinePx = 21;
-constexpr std::size_t kMostCaptionLines = 6;
+constexpr std::size_t kMostCaptionLines = 8;
 constexpr double kPartShare = 0.3;  // of a picture's sides
 const render::Ink kText{{0.10, 0.13, 0.17}, 1}, kQuiet{{0.36, 0.40, 0.46}, 1},
     kBad{{0.69, 0.14, 0.11}, 1};
@@ -35,6 +36,27 @@ void Enlarge(const Image& from, const Tile& part, const Tile& to, Image& into) {
       std::copy_n(&from.rgba[at], 4, &into.rgba[put]);
     }
   }
+}
+
+// Of lines that are at most `most_px` wide, where a word is not wider.
+std::vector<std::string> Wrapped(const std::vector<std::string>& lines, double most_px,
+                                 render::Font& font) {
+  std::vector<std::string> wrapped;
+  for (const std::string& line : lines) {
+    std::string row;
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      const std::string longer = row.empty() ? word : row + ' ' + word;
+      if (!row.empty() && font.Width(longer, kTextPx) > most_px) {
+        wrapped.push_back(row);
+        row = "    " + word;
+      } else {
+        row = longer;
+      }
+    }
+    wrapped.push_back(row);
+  }
+  return wrapped;
 }
 
 }  // namespace
@@ -60,20 +82,21 @@ std::optional<Tile> WorstPart(const CaseVerdict& verdict) {
 
 Image Composite(const CaseVerdict& verdict, const Image& accepted, const Image& now,
                 const Image& difference) {
-  std::vector<std::string> lines = Explain(verdict);
+  const int width = accepted.width, height = accepted.height;
+  const int inner_width = 3 * width + 2 * kGap;
+  render::Font regular("DejaVuSans.ttf"), bold("DejaVuSans-Bold.ttf");
+  std::vector<std::string> lines = Wrapped(Explain(verdict), inner_width, regular);
   if (lines.size() > kMostCaptionLines) {
     lines[kMostCaptionLines - 1] = fmt::format("and {} more", lines.size() - kMostCaptionLines + 1);
     lines.resize(kMostCaptionLines);
   }
   const auto part = WorstPart(verdict);
-  const int width = accepted.width, height = accepted.height;
   const int top = 2 * kMargin + kTitlePx + static_cast<int>(lines.size()) * kLinePx + kLinePx;
   Image image;
-  render::SetSize(image, 2 * kMargin + 3 * width + 2 * kGap,
+  render::SetSize(image, 2 * kMargin + inner_width,
                   top + height + kMargin + (part ? kGap + height : 0));
   render::FillWith(image, {0, 0, image.width, image.height}, {1, 1, 1});
   render::Canvas canvas(image);
-  render::Font regular("DejaVuSans.ttf"), bold("DejaVuSans-Bold.ttf");
   canvas.Text(kMargin, kMargin + kTitlePx,
               fmt::format("{}: {}", verdict.name, Name(verdict.outcome)), bold, kTitlePx, kBad);
   double y = kMargin + kTitlePx + kLinePx;

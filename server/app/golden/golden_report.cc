@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -264,7 +265,9 @@ class ReportWriter {
       }
       html_ += "</div>\n";
     }
-    html_ += "<div class=\"pictures\">";
+    html_ +=
+        fmt::format("<div class=\"pictures\" style=\"--shape: {:.3f}\">",
+                    static_cast<double>(verdict.now->width) / std::max(1, verdict.now->height));
     AddFigure("Accepted", before, verdict);
     AddFigure("This run", after, verdict);
     AddFigure("Difference", difference, verdict);

@@ -65,7 +65,7 @@ ul.words .pixels::before, ul.words .structure::before, ul.words .light::before {
 .cause { border-left: 3px solid var(--bad); padding: 2px 0 2px 10px; font-size: 13px; } .cause.other { border-color: #d08a00; background: var(--warn-soft); }
 .layers { margin-top: 8px; } .layers .fails th { color: var(--bad); }
 .views { display: flex; flex-wrap: wrap; gap: 6px; margin: 12px 0 6px; }
-.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 10px; }
+.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 10px; max-width: max(600px, calc(1.5 * var(--shape, 1.78) * (100vh - 478px) + 20px)); }
 figure { margin: 0; min-width: 0; } figcaption { font-size: 12px; color: var(--quiet); margin-bottom: 3px; } figcaption b { color: var(--ink); }
 svg.shot { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; background: #fff; }
 svg.near { margin-top: 6px; } svg.near * { image-rendering: pixelated; } svg.shot rect { fill: none; stroke: #1d5aa0; stroke-width: 1.5; stroke-dasharray: 5 3; }
@@ -80,10 +80,10 @@ footer { position: fixed; left: 0; right: 0; bottom: 0; background: var(--panel)
 footer #said { flex: 1 1 240px; min-width: 0; overflow-wrap: anywhere; }
 footer .keys { color: var(--quiet); font-size: 12px; }
 .js .needs-script { display: flex; } .needs-script { display: none; }
-@media screen and (max-width: 760px) { .two, .pictures { grid-template-columns: minmax(0, 1fr); } main { padding: 10px; } main > section { padding: 10px 12px; }
+@media screen and (max-width: 760px) { .two, .pictures { grid-template-columns: minmax(0, 1fr); max-width: none; } main { padding: 10px; } main > section { padding: 10px 12px; }
   header.top { padding: 10px 12px; } table.summary thead { display: none; } table.summary tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--line); }
   table.summary td { display: inline; border: 0; padding: 0 6px 0 0; } table.summary td:nth-child(3) { display: block; } footer .keys, .hide-narrow { display: none; } [data-token] button { min-height: 40px; } .outcome:not(:empty):not(.failed) + .decide { margin-left: auto; } dl div { grid-template-columns: 90px minmax(0, 1fr); } }
-@media print { body { padding: 0; } footer, .views, .decide { display: none !important; } section.case { break-before: page; } @page { size: A4 landscape; margin: 9mm; } }
+@media print { body { padding: 0; } .pictures { max-width: none; } footer, .views, .decide { display: none !important; } section.case { break-before: page; } @page { size: A4 landscape; margin: 9mm; } }
 )";
 
 inline constexpr char kGoldenReportScript[] = R"(

@@ -305,9 +305,8 @@ class PictureCheck {
       const bool is_within = levels.pixels <= limits.changed_pixels;
       if (layer.layer != "pixels" || !is_accepted_environment || is_within) continue;
       layer.passes = false;
-      layer.text = fmt::format("{}; {} by more than {} levels", layer.text,
-                               Counted(static_cast<std::uint64_t>(levels.pixels), "pixel"),
-                               render::kChannelTolerance);
+      layer.text = fmt::format("{} by more than {} levels, {}", levels.pixels,
+                               render::kChannelTolerance, layer.text);
     }
     return layers;
   }
@@ -350,7 +349,10 @@ class PictureCheck {
     const auto& clusters = difference_.pixels.clusters;
     if (!is_light && !is_structure && !clusters.empty()) {
       place = clusters.front().box;
-      const auto names = ObjectsIn(place, drawing_.places);
+      const bool is_nearly_all = 2LL * place.width * place.height >
+                                 1LL * difference_.actual_width * difference_.actual_height;
+      const auto names =
+          is_nearly_all ? std::vector<std::string>() : ObjectsIn(place, drawing_.places);
       if (!names.empty()) finding.text += fmt::format(", in it {}", fmt::join(names, ", "));
     }
     if (!render::IsEmpty(place)) {
