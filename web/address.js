@@ -2,15 +2,18 @@
 // end.
 import { LAYOUTS } from './layout.js';
 import { LOADS_SHOWN } from './messages.js';
+import { partsIn } from './scene_parts.js';
 import { THEMES } from './theme.js';
 import { SPEEDS } from './viewer_time.js';
 
 /** @typedef {{micros: number|null, place: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
  *    window: number|null, loads: import('./loads_shown.js').LoadsShown|null, speed: number|null,
+ *    hidden: import('./scene_parts.js').ScenePart[],
  *    view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
  *    micros: the moment of a viewer who looks back, null: live; place: that in a recording, s from its beginning;
  *    person: character; joints: that are plotted; camera: name, or place (orbit.js); window: time that the plots show,
- *    s; loads: where joint loads are shown; speed: of looking back. Null otherwise: as the page has it by itself */
+ *    s; loads: where joint loads are shown; speed: of looking back; hidden: parts of the
+ *    scene. Null otherwise: as the page has it by itself */
 
 const JOINT = /^[a-z0-9_]{1,40}$/, NAME = /^[a-z_]{1,40}$/, MOST_JOINTS = 15;
 
@@ -35,6 +38,7 @@ export function shownIn(url) {
     tab: NAME.test(tab) ? tab : null,
     window: window !== null && window > 0 ? window : null,
     loads: LOADS_SHOWN.find((name) => name === of('loads')) ?? null,
+    hidden: partsIn(of('hide')),
     speed: SPEEDS.find((speed) => speed === numberOf(of('speed'))) ?? null,
     view: LAYOUTS.find((name) => name === of('view')) ?? null,
     theme: THEMES.find((name) => name === of('theme')) ?? null,

@@ -349,7 +349,7 @@ const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((ma
 
 function applyLook() {
   if (model === null) return;
-  scene?.setLook({ ...model.look, loads: loadsShown.of(model.look.loads) });
+  scene?.setLook({ ...model.look, loads: loadsShown.of(model.look.loads), hidden: linked.hidden });
   updateScene();
 }
 

@@ -24,7 +24,8 @@ const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2
 const SHARED = new Set([unitSphere, unitBox, unitCylinder, ...ARROW_SHAPES]);
 
 /** @typedef {import('./messages.js').Visual} Visual
- *  @typedef {import('./messages.js').Palette} Palette */
+ *  @typedef {import('./messages.js').Palette} Palette
+ *  @typedef {Pick<import('./messages.js').Look, 'loads'|'style'> & {hidden: import('./scene_parts.js').ScenePart[]}} HumanLook */
 
 /** Makes what `material` draws count as nearer by `depth` than its centre: a load sphere is drawn over the limb around
  *  it, and is hidden by other limbs.
@@ -92,7 +93,7 @@ export class Human {
   #skin = /** @type {SkinnedBody|null} */ (null);
   #isDisposed = false;
   #look;
-  #last = /** @type {{person: import('./state_codec.js').Person, isLive: boolean}|null} */ (null);
+  #last = /** @type {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}|null} */ (null);
   #links = /** @type {THREE.Group[]} */ ([]);
   #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
   #held = /** @type {THREE.Mesh[]} */ ([]);
@@ -101,7 +102,7 @@ export class Human {
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
    *  @param {ReturnType<typeof makeMarkerMaterials>} markers
-   *  @param {Pick<import('./messages.js').Look, 'loads'|'style'>} look
+   *  @param {HumanLook} look
    *  @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(model, palette, markers, look, onChange) {
     this.#look = look;
@@ -137,8 +138,8 @@ export class Human {
     for (const { material, live } of this.#materials.values()) {
       material.color.copy(color ?? live).lerp(live, 1 - this.#colorShare);
     }
-    this.#last = { person, isLive };
-    this.#updateSkin(person, isLive);
+    this.#last = { person, isLive, floor };
+    this.#updateSkin(this.#last);
     person.links.forEach(({ position, quaternion }, i) => {
       this.#links[i]?.position.fromArray(position);
       this.#links[i]?.quaternion.fromArray(quaternion);
@@ -148,9 +149,31 @@ export class Human {
     this.#updateSupport(person, isLive, floor);
     this.forces.update(isLive ? person.feet : []);
     this.#updateHeld(person);
+    this.#hide();
   }
 
-  /** @param {Pick<import('./messages.js').Look, 'loads'|'style'>} look  from the next update on */
+  #hide() {
+    for (const part of this.#look.hidden) for (const each of this.#partsOf(part)) each.visible = false;
+  }
+
+  /** What of the person is a part of the scene.
+   *  @param {import('./scene_parts.js').ScenePart} part
+   *  @returns {THREE.Object3D[]} */
+  #partsOf(part) {
+    switch (part) {
+      case 'body': return [...this.#links, ...this.#skin?.bodies ?? []];
+      case 'shadows': return this.#skin?.shadows ?? [];
+      case 'loads': return [...this.#spheres.values()].map(({ group }) => group);
+      case 'com': return [this.com, this.comLine, this.comRing];
+      case 'cop': return [this.cop];
+      case 'support': return [this.support];
+      case 'forces': return [this.forces.group];
+      case 'hand_loads': return this.#held;
+      default: return [];
+    }
+  }
+
+  /** @param {HumanLook} look  from the next update on */
   setLook(look) {
     this.#look = look;
   }
@@ -190,8 +213,9 @@ export class Human {
       if (this.#isDisposed) return;
       this.#skin = new SkinnedBody(skin, this.palette, this.ghostOpacity);
       if (this.#last) {
-        this.#updateSkin(this.#last.person, this.#last.isLive);
+        this.#updateSkin(this.#last);
         this.#updateSpheres(this.#last.person, this.#last.isLive);
+        this.#hide();
       }
       this.group.add(this.#skin.group);
     } catch {
@@ -216,10 +240,9 @@ export class Human {
     return this.ghostOpacity === null ? 1 : this.palette.ghost.share;
   }
 
-  /** @param {import('./state_codec.js').Person} person
-   *  @param {boolean} isLive */
-  #updateSkin(person, isLive) {
-    this.#skin?.update(person.links, this.#bodyColor(isLive), this.#colorShare);
+  /** @param {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}} last */
+  #updateSkin({ person, isLive, floor }) {
+    this.#skin?.update(person.links, floor, this.#bodyColor(isLive), this.#colorShare);
     const isOnSkin = this.#look.loads !== 'spheres';
     this.#skin?.showLoads(isOnSkin ? person.loads.map(({ joint, loadClass }) =>
       ({ joint, loadClass: isLive ? loadClass : 'unknown' })) : null);
@@ -278,7 +301,6 @@ export class Human {
   #updateHeld({ held }) {
     while (this.#held.length < held.length) {
       const mesh = new THREE.Mesh(unitBox, this.markers.held);
-      mesh.castShadow = true;
       this.#held.push(mesh);
       this.group.add(mesh);
     }
@@ -286,6 +308,7 @@ export class Human {
       const solid = held[i];
       mesh.visible = solid !== undefined;
       if (!solid) return;
+      mesh.castShadow = this.#skin === null;  // a skin has a soft shadow, as in the server's pictures
       mesh.geometry = solid.kind === 'box' ? unitBox : unitCylinder;
       mesh.position.fromArray(solid.position);
       mesh.quaternion.fromArray(solid.quaternion);

@@ -11,7 +11,7 @@ export class People {
   group = new THREE.Group();
   #people = /** @type {Map<number, {human: Human, seenMicros: number|null}>} */ (new Map());
 
-  #look = /** @type {Pick<import('./messages.js').Look, 'loads'|'style'>} */ ({ loads: 'spheres', style: 'matte' });
+  #look = /** @type {import('./human.js').HumanLook} */ ({ loads: 'spheres', style: 'matte', hidden: [] });
 
   /** @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(onChange) {
@@ -31,7 +31,7 @@ export class People {
     }
   }
 
-  /** @param {Pick<import('./messages.js').Look, 'loads'|'style'>} look  from the next update on */
+  /** @param {import('./human.js').HumanLook} look  from the next update on */
   setLook(look) {
     this.#look = look;
     for (const { human } of this.#people.values()) human.setLook(look);

@@ -91,9 +91,13 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** @param {import('./messages.js').Look} look  from the next update on */
+  /** @param {import('./messages.js').Look & {hidden: import('./scene_parts.js').ScenePart[]}} look  from the next update
+   *    on */
   setLook(look) {
     this.#people.setLook(look);
+    this.#surroundings.hide(look.hidden);
+    if (this.#objects !== null) this.#objects.group.visible = !look.hidden.includes('objects');
+    if (look.hidden.includes('shadows')) this.#shade.visible = false;
     this.#trails.setLook(look.trails, look.trail_secs);
   }
 

@@ -2,6 +2,7 @@
 // metres.
 import * as THREE from 'three';
 import { toColor } from './colors.js';
+import { FloorShadow } from './floor_shadow.js';
 import { framesOf } from './skin_frames.js';
 import { REGION_FLOATS, regionsOf } from './skin_regions.js';
 import { POSED_VERTEX, SkinSurface } from './skin_surface.js';
@@ -63,7 +64,7 @@ const LIGHT = `
 
 /** @param {{vertexShader: string}} shader
  *  @param {string} declarations  GLSL */
-function usePosedVertices(shader, declarations = '') {
+function usePosedVertices(shader, declarations) {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', `#include <common>${POSED_VERTEX}${declarations}`)
     .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
@@ -74,6 +75,7 @@ export class SkinnedBody {
   group = new THREE.Group();
   mesh;
   #front = /** @type {THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>|null} */ (null);
+  #shadow = /** @type {FloorShadow|null} */ (null);  // of a person of the stream
   #rig;
   #surface;
   #fromBind;
@@ -100,11 +102,14 @@ export class SkinnedBody {
     geometry.setAttribute('paint', new THREE.BufferAttribute(skin.paint, 4));
     geometry.setIndex(new THREE.BufferAttribute(skin.triangles, 1));
     this.mesh = new THREE.Mesh(geometry, this.#material(skin));
-    this.mesh.customDepthMaterial = this.#depthMaterial();
     this.mesh.frustumCulled = false;  // its bounds move with the frames
-    this.mesh.castShadow = opacity === null;  // only onto the floor: on the body itself shadows would disturb the shading
     this.group.add(this.mesh);
-    if (opacity !== null) this.#becomeVeil(skin, opacity);
+    if (opacity === null) {
+      this.#shadow = new FloorShadow(this.#surface.capsules, skin.rig.limbs.length);
+      this.group.add(this.#shadow.mesh);
+    } else {
+      this.#becomeVeil(skin, opacity);
+    }
   }
 
   /** @param {import('./skin_buffer.js').Skin} skin
@@ -120,13 +125,15 @@ export class SkinnedBody {
   }
 
   /** @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed
+   *  @param {number} floor  its height, m
    *  @param {THREE.Color|null} color  instead of those of the suit
    *  @param {number} [share]  of that color */
-  update(links, color, share = 1) {
+  update(links, floor, color, share = 1) {
     this.#override.share.value = color ? share : 0;
     if (color) this.#override.color.value = color;
     this.#surface.setPosture(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
       new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])), links);
+    this.#shadow?.update(floor);
   }
 
   /** Shows loads as regions around their joints.
@@ -153,6 +160,14 @@ export class SkinnedBody {
     });
   }
 
+  get bodies() {
+    return this.#front === null ? [this.mesh] : [this.#front, this.mesh];
+  }
+
+  get shadows() {
+    return this.#shadow === null ? [] : [this.#shadow.mesh];
+  }
+
   /** Before it is drawn.
    *  @param {THREE.WebGLRenderer} renderer */
   pose(renderer) {
@@ -163,7 +178,7 @@ export class SkinnedBody {
     this.mesh.geometry.dispose();
     this.mesh.material.dispose();
     this.#front?.material.dispose();
-    this.mesh.customDepthMaterial?.dispose();
+    this.#shadow?.dispose();
     this.#surface.dispose();
   }
 
@@ -209,15 +224,6 @@ export class SkinnedBody {
             gl_FragColor.rgb = mix(gl_FragColor.rgb, loadHere.rgb * mix(1.0, lightHere, 0.75), loadHere.a);
           #endif
           #include <fog_fragment>`);
-    };
-    return material;
-  }
-
-  #depthMaterial() {
-    const material = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking });
-    material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, this.#surface.uniforms);
-      usePosedVertices(shader);
     };
     return material;
   }

@@ -57,6 +57,17 @@ export function setCapsules(limbs, links, values) {
   });
 }
 
+/** Both ends of each.
+ *  @param {Float32Array} values  of capsules */
+export function capsuleEnds(values) {
+  const ends = [];
+  for (let at = 0; at < values.length; at += CAPSULE_FLOATS) {
+    const start = [...values.subarray(at, at + 3)];
+    ends.push(start, start.map((value, axis) => value + values[at + 4 + axis]));
+  }
+  return ends;
+}
+
 /** GLSL: the share of the sky over a vertex that no limb covers. All limbs are computed for all vertices: a software
  *  renderer would take longer to choose.
  *  @param {number} count  of limbs */

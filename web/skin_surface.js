@@ -268,6 +268,11 @@ export class SkinSurface {
     this.#screen.frustumCulled = false;
   }
 
+  /** The limbs at the newest posture, for `openSky`. */
+  get capsules() {
+    return this.#capsules;
+  }
+
   /** @param {THREE.Matrix4[]} matrices  world_from_bind of each frame
    *  @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed */
   setPosture(matrices, links) {

@@ -16,11 +16,18 @@ export class Surroundings {
   #shown = /** @type {number|null} */ (null);  // revision
   #asked = { revision: /** @type {number|null} */ (null), at: -Infinity };
   #isLoading = false;
+  #hidden = /** @type {readonly string[]} */ ([]);
 
   /** @param {() => void} onChange */
   constructor(onChange) {
     this.group.quaternion.copy(WORLD_FROM_FILE);
     this.onChange = onChange;
+  }
+
+  /** From the next load on.
+   *  @param {readonly string[]} parts */
+  hide(parts) {
+    this.#hidden = parts;
   }
 
   /** Shows those of the server as soon as they are loaded. Call it often.
@@ -66,6 +73,9 @@ export class Surroundings {
     if (revision === null) this.#asked.revision = null;
     if (scene !== null) {
       scene.traverse(prepare);
+      for (const node of scene.children[0]?.children ?? []) {
+        node.visible = !this.#hidden.includes(node.name.startsWith('robot') ? 'robots' : 'markers');
+      }
       this.group.add(scene);
     }
     this.onChange();

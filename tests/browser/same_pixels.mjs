@@ -136,7 +136,7 @@ export const onlyView = (page, isOnly) => page.evaluate((hidden) => {
  *  the moment that is compared. */
 export async function whatCovers({ url }, camera, part, status = { 'status-note': 'ended' }) {
   const open = async (hasPart) => {
-    const visit = await openPage(url, {
+    const visit = await openPage(`${url}?hide=shadows`, {
       colorScheme: 'dark', viewport: TALL,
       beforeLoad: async (page) => {
         if (!hasPart) await page.route(part.route, (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));

@@ -29,7 +29,7 @@ test('a moment of a recording is that of the sample shown, never one before it',
 });
 
 const ALL = { micros: 83_512_345_679, place: 2.5, person: 2, joints: ['l5_s1', 'right_knee'], camera: 'front', tab: 'plots', window: 300, loads: 'both', speed: 0.25,
-  view: 'phone', theme: 'dark' };
+  view: 'phone', theme: 'dark', hidden: [] };
 
 test('all that a link says is read as it was written', () => {
   for (const camera of ['front', '1.2,-3.4,1.5,0,0,1']) {
@@ -47,9 +47,16 @@ test('what is not named stays, and null takes a value out', () => {
 });
 
 test('values that are none are ignored', () => {
-  const none = { micros: null, place: null, person: null, joints: null, camera: null, tab: null, window: null, loads: null, speed: null, view: null, theme: null };
+  const none = { micros: null, place: null, person: null, joints: null, camera: null, tab: null, window: null, loads: null, speed: null, view: null, theme: null, hidden: [] };
   assert.deepEqual(shownIn(at('?t=x&at=x&person=1.5&joint=<b>,A&camera=<img>&tab=%00&window=-3&loads=none&speed=3&view=cinema&theme=pink')), none);
   assert.deepEqual(shownIn(at('?t=&at=&person=&joint=&camera=&tab=&window=&loads=&speed=&view=&theme=')), none);
   assert.equal(shownIn(at(`?camera=${'a'.repeat(500)}`)).camera, null);
   assert.equal(shownIn(at(`?joint=${Array(500).fill('neck').join()}`)).joints.length, 15);
+});
+
+test('parts of the scene are hidden by the names that render has; others are ignored, and links keep them', () => {
+  const url = at('?hide=shadows,loads,<b>,body,legs');
+  assert.deepEqual(shownIn(url).hidden, ['body', 'loads', 'shadows']);
+  assert.deepEqual(shownIn(withShown(url, ALL)).hidden, ['body', 'loads', 'shadows']);
+  assert.deepEqual(shownIn(at('?hide=')).hidden, []);
 });

@@ -87,7 +87,7 @@ test('bodies of style clay have its colour, and those without live data that of 
     people.update(stateOf(100, 0, 1), isLive);
     return limb.material.color.clone();
   };
-  const matte = { loads: 'spheres', style: 'matte' }, clay = { ...matte, style: 'clay' };
+  const matte = { loads: 'spheres', style: 'matte', hidden: [] }, clay = { ...matte, style: 'clay' };
   assert.deepEqual(colorOf(clay, true), toColor(palette.clay));
   assert.deepEqual(colorOf(clay, false), toColor(palette.stale_body));
   assert.deepEqual(colorOf(matte, true), toColor(palette.body));
@@ -98,9 +98,28 @@ test('people without a skin keep their load spheres', () => {
   const { people } = twoPeople();
   const state = stateOf(100, 0);
   state.people[0].loads = [{ joint: 3, loadClass: 'high', radius: 0.05, position: [0, 0, 1] }];
-  people.setLook({ loads: 'skin', style: 'matte' });
+  people.setLook({ loads: 'skin', style: 'matte', hidden: [] });
   people.update(state, true);
   const sphere = people.group.children[0].children.at(-1);
   assert.ok(sphere.visible && sphere.scale.x === 0.05);
   assert.equal(people.hasSkins, false);
+});
+
+test('hidden parts of a person are not drawn, and the others are', () => {
+  const { people } = twoPeople();
+  const [human] = people.group.children;
+  const shown = (hidden) => {
+    people.setLook({ loads: 'spheres', style: 'matte', hidden });
+    const state = stateOf(100, 0);
+    Object.assign(state.people[0], { loads: [{ joint: 3, loadClass: 'high', radius: 0.05, position: [0, 0, 1] }], com: [0, 0, 1], cop: [0, 0, 0] });
+    people.update(state, true);
+    return human.children.map(({ visible }) => visible);
+  };
+  const all = shown([]);
+  for (const [part, count] of [['loads', 1], ['com', 3], ['cop', 1], ['markers', 0]]) {
+    const without = shown([part]);
+    const differ = without.filter((visible, i) => visible !== all[i]);
+    assert.equal(differ.length, count, part);
+    assert.ok(!differ.includes(true));
+  }
 });

@@ -3,10 +3,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { Matrix4 } from '../../../web/node_modules/three/build/three.module.js';
+import { extentOf } from '../../../web/floor_shadow.js';
 import { readSkin } from '../../../web/skin_buffer.js';
 import { emptyPlanes, foldsOfVertices, setPlanes } from '../../../web/skin_folds.js';
 import { framesOf } from '../../../web/skin_frames.js';
-import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
+import { capsulesOf, emptyCapsules, limbsOfVertices, setCapsules } from '../../../web/skin_limbs.js';
 import { REGION_FLOATS, regionsOf } from '../../../web/skin_regions.js';
 import { neighboursOf } from '../../../web/skin_surface.js';
 import { toBuffer, told } from './told_by_server.mjs';
@@ -259,5 +260,19 @@ test('normals are right where a surface of the user ends, meets itself or has tr
   ]) {
     const { ofRing, mean } = normalsOf(Uint16Array.from(triangles), positions, 0);
     ofRing.forEach((v, k) => assert.ok(Math.abs(v - mean[k]) < 1e-12, `${triangles}: ${ofRing} instead of ${mean}`));
+  }
+});
+
+test('the shadow on the floor reaches 45 cm beyond the limbs', () => {
+  const { rig: { limbs } } = readSkin(buffers[0], 'skin');
+  const { links } = told.skins[0].postures[0];
+  const capsules = emptyCapsules(limbs);
+  setCapsules(limbs, links, capsules);
+  const ends = capsulesOf(limbs, links).flatMap(({ start, end }) => [start.toArray(), end.toArray()]);
+  const { first, size } = extentOf(capsules);
+  for (const axis of [0, 1]) {
+    const places = ends.map((end) => end[axis]);
+    assert.ok(Math.abs(first[axis] - (Math.min(...places) - 0.45)) < 1e-5);
+    assert.ok(Math.abs(first[axis] + size[axis] - (Math.max(...places) + 0.45)) < 1e-5);
   }
 });
