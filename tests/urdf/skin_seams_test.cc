@@ -165,6 +165,25 @@ std::map<std::string, urdf::JointAngles> Postures() {
   kneeling[urdf::jRightKnee].y() = 100 * kDegree;
   kneeling[urdf::jLeftHip].y() = -90 * kDegree;
   kneeling[urdf::jLeftKnee].y() = 90 * kDegree;
+  urdf::JointAngles& crawling = postures["crawling"];
+  hips(crawling, {2, -90, 0});
+  knees(crawling, 90);
+  shoulders(crawling, {10, -90, 0});
+  crawling[urdf::jC1Head].y() = -30 * kDegree;
+  shoulders(postures["lying"], {15, 5, 0});
+  urdf::JointAngles& walking = postures["walking"];
+  walking[urdf::jRightHip].y() = -30 * kDegree;
+  walking[urdf::jLeftHip].y() = 15 * kDegree;
+  walking[urdf::jLeftKnee].y() = 40 * kDegree;
+  walking[urdf::jRightShoulder].y() = 25 * kDegree;
+  walking[urdf::jLeftShoulder].y() = -25 * kDegree;
+  urdf::JointAngles& lifting = postures["lifting"];
+  for (const int joint : {urdf::jL5S1, urdf::jL4L3, urdf::jL1T12, urdf::jT9T8}) {
+    lifting[At(joint)].y() = 10 * kDegree;
+  }
+  hips(lifting, {8, -95, 0});
+  knees(lifting, 95);
+  shoulders(lifting, {5, -70, 0});
   return postures;
 }
 
