@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/hand_load_shape.h"
+#include "core/person_links.h"
 #include "core/skin_inputs.h"
+#include "urdf/skin/limbs.h"
 #include "urdf/skin/occlusion.h"
 
 namespace kinescope {
@@ -38,24 +40,19 @@ std::vector<Ball> BallsOf(const PersonState& person) {
   return balls;
 }
 
-ViewRoom RoomFor(const PersonState& person, double floor_z) {
-  constexpr double kLeast = 0.9, kMost = 3.4;  // m
-  // How much lower and higher than at the target something seems to be that is 1 m nearer or
-  // farther: named cameras look down by 6 to 14 degrees, and what is near is larger.
-  constexpr double kLower = 0.4, kHigher = 0.1;
-  constexpr double kNarrowest = 4.0 / 3, kWidthFill = 0.85;  // of a picture
-  const Eigen::Vector2d place = person.links[urdf::kPelvis].position.head<2>();
-  double above = 0, below = 0, farthest = 0;
-  for (const Ball& ball : BallsOf(person)) {
-    const double away = (ball.center.head<2>() - place).norm();
-    const double z = ball.center.z() - floor_z;
-    above = std::max(above, z + ball.radius + kHigher * away);
-    below = std::max(below, kLower * away - (z - ball.radius));
-    farthest = std::max(farthest, away + ball.radius);
+std::vector<OutlinePoint> OutlineOf(const PersonModel& model) {
+  std::vector<OutlinePoint> outline;
+  for (const auto& [start, end] : skin::LimbShapesOf(model.human.skeleton, BuildOf(model))) {
+    for (const skin::LimbEnd& each : {start, end}) {
+      outline.push_back(
+          {static_cast<std::size_t>(each.segment), each.point, each.radius + kBeyondLimb});
+    }
   }
-  const double height =
-      std::max((above + below) / kLiveFill, 2 * farthest / kNarrowest / kWidthFill);
-  return {std::clamp(height, kLeast, kMost), std::min(below, kMost)};
+  const std::size_t links = VisibleLinks(model.human).size(), props = model.human.props.count();
+  for (std::size_t link = links - props; link < links; ++link) {
+    outline.push_back({link, Vector3d::Zero(), kProp});
+  }
+  return outline;
 }
 
 }  // namespace kinescope

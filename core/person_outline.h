@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -16,18 +17,14 @@ struct Ball {
 /// Balls whose common hull is around the person and what they hold.
 std::vector<Ball> BallsOf(const PersonState& person);
 
-/// What a live view of people shows.
-struct ViewRoom {
-  double height = 0;  // of the picture, m
-  double below = 0;   // m, by which what comes towards the camera seems to be below the floor
+/// A ball of the body, which moves with a link.
+struct OutlinePoint {
+  std::size_t link = 0;                                // index into VisibleLinkPoses()
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // in the link frame, m
+  double radius = 0;
 };
 
-/// What a live view shows so that the person fills most of it, whichever side it is seen from: up
-/// to their highest part above the floor, or as wide as they reach to a side; its height within
-/// what is sensible, 0.9 to 3.4 m.
-ViewRoom RoomFor(const PersonState& person, double floor_z);
-
-/// Share of that height that the person fills.
-inline constexpr double kLiveFill = 0.74;
+/// The same balls in any pose of the person, without loads in the hands.
+std::vector<OutlinePoint> OutlineOf(const PersonModel& model);
 
 }  // namespace kinescope

@@ -166,7 +166,8 @@ loadDiagnostics();
 
 function makeScene() {
   try {
-    return new Scene(elements.view, { onOrbit: () => cameras.mark('') });
+    return new Scene(elements.view, [elements.cameras, elements.points, elements['loads-shown'], elements.banner],
+      { onOrbit: () => cameras.mark('') });
   } catch {
     const note = document.createElement('p');
     note.className = 'no-webgl';

@@ -2,7 +2,7 @@
 // picture. World frame: z up, metres. Pure functions.
 
 /** @typedef {import('./messages.js').CameraView} CameraView
- *  @typedef {import('./messages.js').Framing} Framing
+ *  @typedef {import('./state_codec.js').Person} Person
  *  @typedef {{position: number[], target: number[], fovDegrees: number}} Aim */
 
 /** Tilt of a view straight down, as a share of its distance: an orbit has no "up" exactly at its pole. */
@@ -17,45 +17,54 @@ const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) 
 const turned = ([x, y, z], angle) =>
   [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle), z];
 const length = (/** @type {number[]} */ a) => Math.hypot(...a);
+const unit = (/** @type {number[]} */ a) => scale(a, 1 / length(a));
+/** @type {(a: number[], b: number[]) => number[]} */
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const pelvisOf = (/** @type {Person} */ { links }) => links[0].position;
 
-/** Middle of the people on the floor, and the distance of the outermost person from it. People who are farther than
- *  `reach` from the person nearest to the origin are ignored: all would be too small to see.
- *  @param {number[][]} pelvises
- *  @param {number} floor  height of the floor, m
+/** Without those who are farther than `reach` from the person nearest to the origin: all would be too small to see.
+ *  @param {Person[]} people
  *  @param {number} reach  m
- *  @returns {{middle: number[], radius: number}} */
-export function groundOf(pelvises, floor, reach) {
-  if (pelvises.length === 0) return { middle: [0, 0, floor], radius: 0 };
-  const first = pelvises.reduce((a, b) => (Math.hypot(b[0], b[1]) < Math.hypot(a[0], a[1]) ? b : a));
-  const framed = pelvises.filter((p) => Math.hypot(p[0] - first[0], p[1] - first[1]) <= reach);
-  const sum = framed.reduce(([x, y], p) => [x + p[0], y + p[1]], [0, 0]);
-  const middle = [sum[0] / framed.length, sum[1] / framed.length, floor];
-  const radius = Math.max(...framed.map((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1])));
-  return { middle, radius };
+ *  @returns {Person[]} */
+export function framedPeople(people, reach) {
+  if (people.length === 0) return [];
+  const distance = (/** @type {Person} */ a, x = 0, y = 0) => Math.hypot(pelvisOf(a)[0] - x, pelvisOf(a)[1] - y);
+  const [x, y] = pelvisOf(people.reduce((a, b) => (distance(b) < distance(a) ? b : a)));
+  return people.filter((person) => distance(person, x, y) <= reach);
 }
 
-/** Position and target of the camera that shows `view` of the people on `ground`.
+/** Middle of the people on the floor.
+ *  @param {Person[]} people  at least one
+ *  @param {number} floor  its height, m */
+export function middleOf(people, floor) {
+  const [x, y] = scale(people.map(pelvisOf).reduce(add), 1 / people.length);
+  return [x, y, floor];
+}
+
+/** Of the camera that shows `view`.
  *  @param {CameraView} view
- *  @param {Framing} framing
- *  @param {{middle: number[], radius: number, height: number, below: number, heading: number}} ground  height: that the view
- *    shows, m; below: by which what comes towards the camera seems to be below the floor, m; heading: by which it is
- *    turned, rad
- *  @param {number} aspect  width / height of the canvas
- *  @returns {Aim} */
-export function aim(view, framing, ground, aspect) {
-  const half = Math.tan(view.vertical_fov_rad / 2);
-  const size = ground.height / framing.height_m;
-  let offset = turned(subtract(view.position, view.target), ground.heading);
-  const extent = Math.max(size * length(offset) * half, (ground.radius + framing.margin_m) / framing.narrowest_aspect);
-  const distance = extent / half + ground.radius;
-  const widened = Math.max(1, framing.min_width_m / (2 * distance * half * aspect));
-  offset = scale(offset, (distance * widened) / length(offset));
+ *  @param {number} heading  by which it is turned, rad
+ *  @returns {import('./view_frame.js').Axes} */
+export function axesOf(view, heading) {
+  let offset = turned(subtract(view.position, view.target), heading);
+  const viewUp = turned(view.up, heading);
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
-  if (isPole) offset = subtract(offset, scale(turned(view.up, ground.heading), POLE_TILT * length(offset)));
-  const lowered = Math.max(0, ground.below - framing.spare_below * ground.height);
-  const target = add(add(ground.middle, scale(view.target, size)), [0, 0, -lowered]);
+  if (isPole) offset = subtract(offset, scale(viewUp, POLE_TILT * length(offset)));
+  const forward = unit(scale(offset, -1)), right = unit(cross(forward, viewUp));
+  return { right, up: cross(right, forward), forward };
+}
+
+/** Position and target of the camera that shows `view` from that place.
+ *  @param {CameraView} view
+ *  @param {import('./view_frame.js').Axes} axes
+ *  @param {import('./view_frame.js').ViewPlace} place
+ *  @param {number[]} middle  of the people on the floor
+ *  @returns {Aim} */
+export function cameraAt(view, { right, up, forward }, place, middle) {
+  const target = add(middle, add(scale(right, place.right), scale(up, place.up)));
+  const distance = place.height / 2 / Math.tan(view.vertical_fov_rad / 2);
   return {
-    position: add(target, offset),
+    position: subtract(target, scale(forward, distance)),
     target,
     fovDegrees: (view.vertical_fov_rad * 180) / Math.PI,
   };

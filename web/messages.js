@@ -191,9 +191,10 @@ const readVisual = object({
   kind: oneOf(['box', 'cylinder', 'sphere', 'mesh']), size: numbers(3), position: numbers(3),
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
 });
+const readOutlinePoint = object({ link: number, position: numbers(3), radius: number });
 const readPersonModel = object({
   character: number, revision: number, ghost_opacity: numberOrNull, skin: orNull(string),
-  links: listOf(object({ visuals: listOf(readVisual) })),
+  links: listOf(object({ visuals: listOf(readVisual) })), outline: listOf(readOutlinePoint),
 });
 const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb, size: number, rim: number }));
 const readPalette = object({
@@ -218,6 +219,7 @@ export const readModel = object({
   palette: readPalette,
 });
 /** @typedef {ReturnType<typeof readVisual>} Visual
+ *  @typedef {ReturnType<typeof readOutlinePoint>} OutlinePoint  a ball that moves with a link, m
  *  @typedef {ReturnType<typeof readPersonModel>} PersonModel
  *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
  *  @typedef {ReturnType<typeof readTrail>} TrailLook  segment: number of its link; -1: the centre of mass
@@ -242,7 +244,6 @@ const readCameraView = object({
 });
 const readFraming = object({
   min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number, height_m: number,
-  spare_below: number,
 });
 export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
 /** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin

@@ -2,9 +2,9 @@
 // World frame: z up, metres.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { aim, groundOf } from './cameras.js';
-import { HeldRoom } from './held_room.js';
+import { watchFreeArea } from './free_area.js';
 import { makeMarkerMaterials } from './human.js';
+import { LiveCamera } from './live_camera.js';
 import { ObjectMarkers } from './objects.js';
 import { placeText, shifted, turned, zoomed } from './orbit.js';
 import { People } from './people.js';
@@ -38,12 +38,9 @@ export class Scene {
   #markers = /** @type {ReturnType<typeof makeMarkerMaterials>|null} */ (null);
   #objects = /** @type {ObjectMarkers|null} */ (null);
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
-  #ground = { middle: [0, 0, 0], radius: 0 };
-  #heldRoom = new HeldRoom();
-  #heading = 0;  // by which named views are turned, rad
-  // What the view shows; null: no person came yet.
-  #room = /** @type {import('./held_room.js').ViewRoom|null} */ (null);
-  #followed = [0, 0, 0];
+  #middle = [0, 0, 0];  // of the people on the floor
+  #liveCamera = new LiveCamera();
+  #followed = [0, 0, 0];  // the middle that the view has reached
   #isFollowing = false;
   #stillness = matchMedia('(prefers-reduced-motion: reduce)');  // the view then goes at once where it is to be
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
@@ -57,9 +54,10 @@ export class Scene {
   #quality = 0;  // number of reductions of quality on a slow machine
 
   /** @param {HTMLElement} host  filled with a canvas
+   *  @param {HTMLElement[]} overlays  what lies over it, which people should not be under
    *  @param {{onOrbit: () => void}} events  onOrbit: called when the user moves the camera by hand
    *  @throws if WebGL is not available */
-  constructor(host, events) {
+  constructor(host, overlays, events) {
     this.host = host;
     this.renderer = makeRenderer();
     host.append(this.renderer.domElement);
@@ -71,6 +69,10 @@ export class Scene {
     this.controls.addEventListener('start', () => this.#leaveView());
     this.#buildStage();
     new ResizeObserver(() => this.#resize()).observe(host);
+    watchFreeArea(host, overlays, (area) => {
+      this.#liveCamera.setArea(area);
+      this.#aim();
+    });
     theme?.follow(() => this.#applyTheme());
     this.#applyTheme();
     this.#resize();
@@ -86,6 +88,8 @@ export class Scene {
       this.#scene.add(this.#objects.group);
     }
     const isGhost = (/** @type {import('./messages.js').PersonModel} */ person) => person.ghost_opacity !== null;
+    this.#liveCamera.setOutlines(model.people);
+    this.#aim();
     this.#people.setModels(model.people.filter((person) => !isGhost(person)), model.palette, this.#markers);
     this.#ghosts.setModels(model.people.filter(isGhost), model.palette, this.#markers);
     this.#dirty = true;
@@ -155,11 +159,8 @@ export class Scene {
     this.#trails.update(state);
     this.#objects?.update(state.objects, isLive);
     if (state.people.length > 0) {
-      const pelvises = state.people.map(({ links }) => links[0].position);
-      this.#ground = groundOf(pelvises, state.floor, this.#framing?.reach_m ?? Infinity);
-      const height = Math.max(...state.people.map(({ viewHeight }) => viewHeight));
-      const needed = { height, below: state.viewBelow };
-      this.#show(this.#heldRoom.follow(needed, state.sentMicros / 1e6), state.viewHeading);
+      this.#middle = this.#liveCamera.setState(state, this.#framing?.reach_m ?? Infinity);
+      this.#aim();
     }
     this.#heads = state.people.filter(({ links }) => links.length > HEAD)
       .map(({ character, links }) => ({ character, position: links[HEAD].position }));
@@ -172,7 +173,8 @@ export class Scene {
     this.#view = view;
     this.#framing = framing;
     this.#placeWanted = null;
-    this.#followed = this.#ground.middle;
+    this.#followed = this.#middle;
+    this.#liveCamera.cut();
     this.#aim();
   }
 
@@ -195,7 +197,7 @@ export class Scene {
   #takePlace() {
     if (this.#placeWanted === null || this.#people.size === 0) return;
     const { position, target } = this.#placeWanted;
-    this.#followed = this.#ground.middle;
+    this.#followed = this.#middle;
     this.#leaveView();
     this.#move({ position: position.map((v, i) => v + this.#followed[i]), target: target.map((v, i) => v + this.#followed[i]) });
   }
@@ -276,12 +278,12 @@ export class Scene {
   /** Moves the camera to the named view, if there is one. */
   #aim() {
     if (this.#view === null || this.#framing === null) return;
-    const room = this.#room ?? { height: this.#framing.height_m, below: 0 };
-    const ground = { middle: this.#followed, radius: this.#ground.radius, ...room, heading: this.#heading };
-    const { position, target, fovDegrees } = aim(this.#view, this.#framing, ground, this.#camera.aspect);
-    this.#camera.fov = fovDegrees;
-    this.#objects?.setFieldOfView(fovDegrees);
-    this.#camera.updateProjectionMatrix();
+    const { position, target, fovDegrees } = this.#liveCamera.aim(this.#view, this.#followed);
+    if (this.#camera.fov !== fovDegrees) {
+      this.#camera.fov = fovDegrees;
+      this.#objects?.setFieldOfView(fovDegrees);
+      this.#camera.updateProjectionMatrix();
+    }
     this.#camera.position.fromArray(position);
     this.controls.target.fromArray(target);
     this.controls.update();
@@ -289,25 +291,14 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** Goes nearer or farther and turns, unless the user moves the camera by hand.
-   *  @param {import('./held_room.js').ViewRoom} room
-   *  @param {number} heading  by which named views are turned, rad */
-  #show(room, heading) {
-    const { height, below } = this.#room ?? {};
-    if (room.height === height && room.below === below && heading === this.#heading) return;
-    this.#room = room;
-    this.#heading = heading;
-    this.#aim();
-  }
-
   /** @param {number} seconds  since the last frame */
   #follow(seconds) {
     const share = this.#stillness.matches ? 1 : 1 - Math.exp(-Math.min(seconds, 1) / FOLLOW_SECONDS);
-    const step = this.#ground.middle.map((v, i) => share * (v - this.#followed[i]));
+    const step = this.#middle.map((v, i) => share * (v - this.#followed[i]));
     this.#isFollowing = Math.hypot(...step) >= LEAST_STEP;
     if (!this.#isFollowing) return;
     if (share === 1 && this.#view !== null) {
-      this.#followed = this.#ground.middle;
+      this.#followed = this.#middle;
       return this.#aim();
     }
     this.#followed = this.#followed.map((v, i) => v + step[i]);
@@ -364,6 +355,7 @@ export class Scene {
     this.renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
     this.#camera.updateProjectionMatrix();
+    this.#liveCamera.setAspect(width / height);
     this.#aim();
     this.#dirty = true;
   }

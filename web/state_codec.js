@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 6;
+export const VERSION = 7;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
@@ -24,19 +24,18 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
  *    comSource: 'mvn'|'body_model', massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
- *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number], viewHeight: number,
+ *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number],
  *    links: Pose[], loads: Load[], support: number[][], feet: GroundForce[], held: Solid[]}} Person
- *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left; viewHeight: that a view shows
- *    so that the person fills most of it, m; feet: those with a force that is shown
+ *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left; feet: those with a force that is shown
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, viewBelow: number,
+ *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number,
  *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[],
  *    ghosts: Person[]}} State
  *    ghosts: reference poses;
  *    arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by which named views are turned about
- *    z, rad; viewBelow: by which people seem to be below the floor, m;
+ *    z, rad;
  *    madeMicros: its moment in the server's history, oldestMicros, oldestNumber: of the first state in it, 0: none
  */
 
@@ -173,11 +172,11 @@ function readStateHeader(bytes) {
   const ghostCount = bytes.u8();
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
-  const viewBelow = bytes.f32();
+  bytes.skip(4);
   const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, ghostCount, waitedMillis, viewHeading, viewBelow, madeMicros, oldestMicros, oldestNumber,
+    viewers, floor, objectCount, ghostCount, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
   };
 }
 
@@ -208,10 +207,9 @@ function readPersonHeader(bytes) {
   const heldKg = bytes.floats(2);
   const cornerCount = bytes.u8();
   const metric = METRIC[bytes.u8()] ?? 'total';
-  const viewHeight = bytes.u16() / 1000;
+  bytes.skip(2);
   return {
     character, linkCount, loadCount, solidCount, cornerCount, revision, compression, margin, comMinusMvn, heldKg, metric,
-    viewHeight,
     com: flags & 1 ? com : null,
     cop: flags & 2 ? cop : null,
     ...traitsOf(flags),

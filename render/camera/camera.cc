@@ -96,15 +96,13 @@ Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
   for (const auto& [known, direction] : Directions()) {
     if (known != name) continue;
     Camera camera;
-    const double size = about.height / kGroupFraming.height_m;
-    const double lowered = std::max(0.0, about.below - kGroupFraming.spare_below * about.height);
-    camera.target = about.middle + Eigen::Vector3d(0, 0, size * kTargetHeight - lowered);
+    camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
     camera.up = direction.up;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.
     const double half_width = about.radius + kGroupFraming.margin_m;
     const double half_extent =
-        std::max(0.5 * about.height, half_width / kGroupFraming.narrowest_aspect);
+        std::max(0.5 * kGroupFraming.height_m, half_width / kGroupFraming.narrowest_aspect);
     const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + about.radius;
     camera.position = camera.target + distance * direction.to_camera;
     camera.far_m = std::max(camera.far_m, 4 * distance);

@@ -44,8 +44,6 @@ struct GroupFraming {
   double reach_m = 50;    // of a group, from the person nearest to the origin: farther people would
                           // make all too small to see, and may be out of the picture
   double height_m = 2.5;  // visible around the target: a standing adult with arms overhead
-  double spare_below = 0.036;  // of the height: how far below the floor people may seem to be
-                               // before the target is lowered
 };
 inline constexpr GroupFraming kGroupFraming;
 
@@ -54,8 +52,6 @@ inline constexpr GroupFraming kGroupFraming;
 struct GroundExtent {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // world, m
   double radius = 0;                                 // m
-  double height = GroupFraming().height_m;           // m, of what the picture shows
-  double below = 0;                                  // m, see ViewRoom
 };
 GroundExtent GroundExtentOf(const SceneState& state);
 /// The people whom cameras frame: those within GroupFraming::reach_m. They belong to `state`.

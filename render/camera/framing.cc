@@ -15,16 +15,9 @@ constexpr int kDirections = 240;  // of a hull: neighbours are 15 degrees apart
 
 constexpr double kObject = 0.12;  // m, of a tracked object, whose shape is not known
 
-// Axes of the camera: right, up, forward; rows of view_from_world.
-Eigen::Matrix3d AxesOf(const Camera& camera) {
-  const glm::dmat4 view = ViewFromWorld(camera);
-  Eigen::Matrix3d axes;
-  for (int axis = 0; axis < 3; ++axis) {
-    axes(0, axis) = view[axis][0];
-    axes(1, axis) = view[axis][1];
-    axes(2, axis) = -view[axis][2];
-  }
-  return axes;
+std::vector<Ball> InAxes(const Eigen::Matrix3d& axes, std::vector<Ball> balls) {
+  for (Ball& ball : balls) ball.center = axes * ball.center;
+  return balls;
 }
 
 // A free area in the picture: x to the right, y up, -1..1 at its edges.
@@ -36,10 +29,16 @@ Window WindowOf(const PictureRect& rect) {
   return {2 * rect.left - 1, 2 * rect.right - 1, 1 - 2 * rect.bottom, 1 - 2 * rect.top};
 }
 
+std::vector<Window> CornersOf(const FreeArea& area) {
+  std::vector<Window> corners;
+  for (const PictureRect& corner : area.corners) corners.push_back(WindowOf(corner));
+  return corners;
+}
+
 // The middle part of it that is to be filled.
-Window Filled(const Window& window) {
-  const double x = 0.5 * (1 - kFilled) * (window.right - window.left);
-  const double y = 0.5 * (1 - kFilled) * (window.up - window.down);
+Window Filled(const Window& window, double share) {
+  const double x = 0.5 * (1 - share) * (window.right - window.left);
+  const double y = 0.5 * (1 - share) * (window.up - window.down);
   return {window.left + x, window.right - x, window.down + y, window.up - y};
 }
 
@@ -116,8 +115,19 @@ bool Overlaps(const Window& a, const Window& b) {
   return a.left < b.right && b.left < a.right && a.down < b.up && b.down < a.up;
 }
 
-bool Covers(const Place& place, const std::vector<Ball>& balls, double aspect,
-            const Window& corner) {
+Window ShownAround(const Place& place, const std::vector<Ball>& balls, double aspect) {
+  Window around{1e300, -1e300, 1e300, -1e300};
+  for (const Ball& ball : balls) {
+    const Window shown = ShownAt(place, ball, aspect);
+    around = {std::min(around.left, shown.left), std::max(around.right, shown.right),
+              std::min(around.down, shown.down), std::max(around.up, shown.up)};
+  }
+  return around;
+}
+
+bool Covers(const Place& place, const std::vector<Ball>& balls, double aspect, const Window& corner,
+            bool is_box) {
+  if (is_box) return Overlaps(ShownAround(place, balls, aspect), corner);
   return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
     return Overlaps(ShownAt(place, ball, aspect), corner);
   });
@@ -142,12 +152,13 @@ Window AboveOrBelow(const Window& window, const Window& corner) {
 // Beside or above each corner that is in the way: whichever shows things larger. `depth`: of their
 // middle.
 Place BestPlace(const Camera& camera, const std::vector<Ball>& balls, double aspect,
-                const Window& whole, std::vector<Window> corners, double depth) {
-  Place best = PlaceOf(camera, balls, aspect, Filled(whole));
+                const Window& whole, std::vector<Window> corners, const Filling& filling,
+                double depth) {
+  Place best = PlaceOf(camera, balls, aspect, Filled(whole, filling.share));
   std::vector<Window> hit;
   while (true) {
     const auto in_the_way = std::find_if(corners.begin(), corners.end(), [&](const Window& corner) {
-      return Covers(best, balls, aspect, corner);
+      return Covers(best, balls, aspect, corner, filling.is_box);
     });
     if (in_the_way == corners.end()) return best;
     hit.push_back(*in_the_way);
@@ -160,7 +171,7 @@ Place BestPlace(const Camera& camera, const std::vector<Ball>& balls, double asp
         window = is_beside ? Beside(window, hit[i]) : AboveOrBelow(window, hit[i]);
       }
       if (window.right - window.left < 0.1 || window.up - window.down < 0.1) continue;
-      const Place place = PlaceOf(camera, balls, aspect, Filled(window));
+      const Place place = PlaceOf(camera, balls, aspect, Filled(window, filling.share));
       if (!is_first && place.smallness(depth) >= best.smallness(depth)) continue;
       best = place;
       is_first = false;
@@ -169,6 +180,17 @@ Place BestPlace(const Camera& camera, const std::vector<Ball>& balls, double asp
 }
 
 }  // namespace
+
+Eigen::Matrix3d AxesOf(const Camera& camera) {
+  const glm::dmat4 view = ViewFromWorld(camera);
+  Eigen::Matrix3d axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    axes(0, axis) = view[axis][0];
+    axes(1, axis) = view[axis][1];
+    axes(2, axis) = -view[axis][2];
+  }
+  return axes;
+}
 
 std::vector<Ball> BallsOf(const SceneState& state) {
   std::vector<Ball> balls;
@@ -220,20 +242,18 @@ void BallHull::Add(const Ball& ball) {
 std::vector<Ball> BallHull::balls() const { return is_empty_ ? std::vector<Ball>() : farthest_; }
 
 Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspect,
-               const FreeArea& area) {
+               const FreeArea& area, const Filling& filling) {
   KINESCOPE_CHECK(!balls.empty() && aspect > 0);
   const Eigen::Matrix3d axes = AxesOf(camera);
-  std::vector<Ball> seen;  // in the camera's axes
-  Vector3d low = Vector3d::Constant(1e300), high = -low;
-  for (const Ball& ball : balls) {
-    seen.push_back({axes * ball.center, ball.radius});
-    low = low.cwiseMin(seen.back().center);
-    high = high.cwiseMax(seen.back().center);
+  const std::vector<Ball> seen = InAxes(axes, balls);
+  double low = 1e300, high = -low;
+  for (const Ball& ball : seen) {
+    low = std::min(low, ball.center.z());
+    high = std::max(high, ball.center.z());
   }
-  const double middle = 0.5 * (low.z() + high.z());
-  std::vector<Window> corners;
-  for (const PictureRect& corner : area.corners) corners.push_back(WindowOf(corner));
-  const Place best = BestPlace(camera, seen, aspect, WindowOf(area.free), corners, middle);
+  const double middle = 0.5 * (low + high);
+  const Place best =
+      BestPlace(camera, seen, aspect, WindowOf(area.free), CornersOf(area), filling, middle);
   Camera framed = camera;
   if (best.ortho_height > 0) framed.ortho_height_m = best.ortho_height;
   const double distance = std::max(middle - best.eye.z(), 0.02);
@@ -242,6 +262,20 @@ Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspe
   framed.near_m = std::min(camera.near_m, 0.02 * distance);
   framed.far_m = std::max(camera.far_m, 4 * distance);
   return framed;
+}
+
+bool AreWithin(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+               const FreeArea& area, double share) {
+  const Eigen::Matrix3d axes = AxesOf(camera);
+  const Place place{axes * camera.position, camera.ortho_height_m,
+                    std::tan(0.5 * camera.vertical_fov_rad)};
+  const Window window = Filled(WindowOf(area.free), share);
+  const Window shown = ShownAround(place, InAxes(axes, balls), aspect);
+  const std::vector<Window> corners = CornersOf(area);
+  return shown.left >= window.left && shown.right <= window.right && shown.down >= window.down &&
+         shown.up <= window.up &&
+         std::none_of(corners.begin(), corners.end(),
+                      [&](const Window& corner) { return Overlaps(shown, corner); });
 }
 
 }  // namespace kinescope::render

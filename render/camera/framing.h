@@ -29,6 +29,9 @@ class BallHull {
   bool is_empty_ = true;
 };
 
+/// Axes of the camera in the world: right, up, forward; the rows.
+Eigen::Matrix3d AxesOf(const Camera& camera);
+
 /// A rectangle in a picture, as shares of its width and height; from the left and from the top.
 struct PictureRect {
   double left = 0, top = 0, right = 1, bottom = 1;
@@ -40,12 +43,24 @@ struct FreeArea {
   std::vector<PictureRect> corners;  // covered parts of it: a legend, a time code
 };
 
-/// `camera` moved, without rotation, so that the balls fill most of the free area's height or
-/// width, and none of them is in a covered corner. @pre !balls.empty(), aspect > 0 (width / height)
-[[nodiscard]] Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspect,
-                             const FreeArea& area = {});
-
 /// Share of the free height or width that Framing() fills.
 inline constexpr double kFilled = 0.85;
+
+/// How Framing() fills it.
+struct Filling {
+  double share = kFilled;
+  bool is_box = false;  // the rectangle around all balls is kept out of covered corners, not each
+                        // ball: for balls of a hull, which leaves out what is between them
+};
+
+/// `camera` moved, without rotation, so that the balls fill the free area, and none of them is in a
+/// covered corner. @pre !balls.empty(), aspect > 0 (width / height)
+[[nodiscard]] Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+                             const FreeArea& area = {}, const Filling& filling = {});
+
+/// Whether the rectangle around all balls is within that share of the free area, and in no covered
+/// corner, as `camera` shows them.
+bool AreWithin(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+               const FreeArea& area, double share);
 
 }  // namespace kinescope::render

@@ -17,37 +17,50 @@ constexpr double kSlack = 0.3;       // m, of the margin, that people may use up
 constexpr double kTolerance = 0.05;  // m, for those who go round at the edge of the picture
 constexpr double kSmaller = 1.35;  // times that people may be smaller so that the camera can stand
 constexpr double kNearer = 0.8;    // of the shown height: then it is worth to come nearer
+constexpr double kSlope = 0.27;    // of half the height, in the pictures of named cameras
 
 // Of a glide.
 constexpr double kStiffness = 4;        // 1/s; half of the way takes 0.42 s
 constexpr double kArrived = 0.005;      // m
 constexpr double kArrivedSpeed = 0.01;  // m/s
 
-double ShownHeight(const GroundExtent& aimed) { return ShownHeight(NamedCameraAt("front", aimed)); }
+// A picture of people who stand within `radius` of their middle.
+struct Picture {
+  double aspect, radius;
+  ShownRoom room;
+};
 
-// The radius within which people are in a picture that is aimed at `aimed`. Named cameras leave
-// room for groups in narrow pictures, so a wide one shows more.
-double VisibleRadius(const GroundExtent& aimed, double aspect) {
-  const double half_width = 0.5 * aspect * ShownHeight({aimed.middle, 0, aimed.height});
-  const double of_group = (aimed.radius + kGroupFraming.margin_m) *
-                          std::max(1.0, aspect / kGroupFraming.narrowest_aspect);
-  return std::max(half_width, of_group) - kGroupFraming.margin_m;
+// That shows all ground around `aimed`, whose nearer half comes closer than its middle.
+double HeightFor(const GroundExtent& aimed, const Picture& picture) {
+  const double more = aimed.radius - picture.radius;
+  if (more <= 0) return picture.room.height;
+  const double width = 2 * (aimed.radius + picture.room.reach);
+  return std::max(picture.room.height, width / picture.aspect + kSlope * more);
 }
 
-bool Contains(const GroundExtent& aimed, const GroundExtent& people, double aspect,
+// The most, for a camera that stands still: of a group, as if the picture were narrow.
+double MostHeight(const Picture& picture) {
+  const double width = 2 * (picture.radius + kGroupFraming.margin_m);
+  return kSmaller * std::max(picture.room.height, width / kGroupFraming.narrowest_aspect);
+}
+
+// The radius within which people are in a picture that is aimed at `aimed`.
+double VisibleRadius(const GroundExtent& aimed, const Picture& picture) {
+  return std::max(0.5 * picture.aspect * HeightFor(aimed, picture) - picture.room.reach,
+                  aimed.radius);
+}
+
+bool Contains(const GroundExtent& aimed, const GroundExtent& people, const Picture& picture,
               double slack = 0) {
   const double away = (people.middle - aimed.middle).norm();
-  return away + people.radius <= VisibleRadius(aimed, aspect) + slack;
+  return away + people.radius <= VisibleRadius(aimed, picture) + slack;
 }
 
-// The nearest aim at the middle of `recent` that shows all of it; at least as wide as for `people`.
-GroundExtent Around(const GroundExtent& recent, const GroundExtent& people, double aspect) {
-  GroundExtent nearest{recent.middle, people.radius, people.height, people.below};
-  if (Contains(nearest, recent, aspect)) return nearest;
-  const double share = std::min(1.0, kGroupFraming.narrowest_aspect / aspect);
-  const double margin = kGroupFraming.margin_m;
-  return {recent.middle, std::max(people.radius, share * (recent.radius + margin) - margin),
-          people.height, people.below};
+// The nearest aim at the middle of `recent` that shows all of it.
+GroundExtent Around(const GroundExtent& recent, const Picture& picture) {
+  const GroundExtent nearest{recent.middle, picture.radius};
+  if (Contains(nearest, recent, picture)) return nearest;
+  return {recent.middle, std::max(picture.radius, recent.radius)};
 }
 
 }  // namespace
@@ -101,12 +114,12 @@ void HeldGroundExtent::GlideTo(const GroundExtent& goal, double dt) {
 }
 
 const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double secs, double aspect,
-                                             const ViewRoom& room) {
-  GroundExtent people = GroundExtentOf(state);
-  people.height = held_.height = room.height;
-  people.below = held_.below = room.below;
+                                             const ShownRoom& room) {
+  const GroundExtent people = GroundExtentOf(state);
+  const Picture picture{aspect, people.radius, room};
   const double dt = std::max(0.0, secs - at_secs_);
   at_secs_ = secs;
+  height_ = room.height;
   if (!has_people_) {
     has_people_ = !state.people.empty();
     held_ = people;
@@ -114,20 +127,19 @@ const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double sec
   if (state.people.empty()) return held_;
   Remember(people, secs);
   const Eigen::Vector3d velocity = Velocity();
-  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius, room.height,
-                           room.below};
-  const GroundExtent still = Around(Recent(), people, aspect);
-  const bool can_stand = ShownHeight(still) <= kSmaller * ShownHeight(people) &&
-                         Contains(still, ahead, aspect, kSlack);
+  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius};
+  const GroundExtent still = Around(Recent(), picture);
+  const bool can_stand =
+      HeightFor(still, picture) <= MostHeight(picture) && Contains(still, ahead, picture, kSlack);
   // A spring that follows a steady motion lags by twice its time constant.
-  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius, room.height,
-                           room.below};
+  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius};
   const GroundExtent& goal = can_stand ? still : along;
-  const bool is_far = ShownHeight(goal) < kNearer * ShownHeight(held_);
+  const bool is_far = HeightFor(goal, picture) < kNearer * HeightFor(held_, picture);
   const bool leaves =
-      !Contains(held_, people, aspect, kTolerance) || !Contains(held_, ahead, aspect, kSlack);
+      !Contains(held_, people, picture, kTolerance) || !Contains(held_, ahead, picture, kSlack);
   is_gliding_ = is_gliding_ || is_far || leaves;
   if (is_gliding_) GlideTo(goal, dt);
+  height_ = HeightFor(held_, picture);
   return held_;
 }
 

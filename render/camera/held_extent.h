@@ -4,11 +4,16 @@
 
 #include <deque>
 
-#include "core/person_outline.h"
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
 
 namespace kinescope::render {
+
+/// What a picture of people shows when it is aimed at their middle.
+struct ShownRoom {
+  double height = kGroupFraming.height_m;  // m
+  double reach = kGroupFraming.margin_m;   // m, of a person to each side, with a margin
+};
 
 /// Aims at the ground on which people were during the last seconds, if it fits into about one
 /// picture (walking to and fro, in circles, on a treadmill that is not quite even): then nothing
@@ -19,9 +24,11 @@ class HeldGroundExtent {
   /// Call it once per picture.
   /// @param secs    of the picture; if it goes back, what was before is forgotten
   /// @param aspect  width / height of the picture
-  /// @param room    what the picture shows
   const GroundExtent& Follow(const SceneState& state, double secs, double aspect,
-                             const ViewRoom& room = {kGroupFraming.height_m, 0});
+                             const ShownRoom& room = {});
+
+  /// What the picture is to show now, m: more than `room` if people were elsewhere a moment ago.
+  double height() const { return height_; }
 
  private:
   struct Seen {
@@ -38,6 +45,7 @@ class HeldGroundExtent {
   std::deque<Seen> seen_;  // the oldest first
   bool has_people_ = false, is_gliding_ = false;
   double at_secs_ = 0;
+  double height_ = kGroupFraming.height_m;
   GroundExtent held_, speed_;  // speed_: m/s
 };
 

@@ -8,6 +8,7 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/person_outline.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::http {
@@ -196,6 +197,15 @@ json LinksToJson(const PersonState& person, bool is_skin) {
   return links;
 }
 
+json OutlineToJson(const PersonModel& model) {
+  json outline = json::array();
+  for (const OutlinePoint& point : OutlineOf(model)) {
+    outline.push_back(
+        {{"link", point.link}, {"position", ToJson(point.position)}, {"radius", point.radius}});
+  }
+  return outline;
+}
+
 json ClassesToJson() {
   json classes = json::array();
   for (const LoadClass load_class : kLoadClasses) {
@@ -275,7 +285,8 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
                       {"mass_kg", body.mass_kg},
                       {"mass_is_assumed", body.mass_is_assumed},
                       {"skin", is_skin ? json(SkinUrl(person)) : json(nullptr)},
-                      {"links", LinksToJson(person, is_skin)}});
+                      {"links", LinksToJson(person, is_skin)},
+                      {"outline", OutlineToJson(*person.model)}});
   }
   json joints = json::array();
   for (const urdf::JointInfo& joint : urdf::kJoints) {
@@ -323,8 +334,7 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                  {"margin_m", framing.margin_m},
                  {"narrowest_aspect", framing.narrowest_aspect},
                  {"reach_m", framing.reach_m},
-                 {"height_m", framing.height_m},
-                 {"spare_below", framing.spare_below}}},
+                 {"height_m", framing.height_m}}},
                {"live", live_camera},
                {"has_pictures", has_pictures}});
 }

@@ -12,7 +12,6 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
-#include "core/person_outline.h"
 #include "core/system/check.h"
 #include "core/system/json_text.h"
 
@@ -112,7 +111,7 @@ void PutFoot(Writer& out, const FootForce& foot) {
   out.PutVector(is_shown ? foot.force : none);
 }
 
-void PutPerson(Writer& out, const PersonState& person, double view_height) {
+void PutPerson(Writer& out, const PersonState& person) {
   KINESCOPE_CHECK(person.model != nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const BodyForces& forces = person.forces;
@@ -138,7 +137,7 @@ void PutPerson(Writer& out, const PersonState& person, double view_height) {
   for (const HandForce& hand : forces.hands) out.PutFloat(hand.mass_kg);
   out.Put(CountByte(forces.support.size));
   out.Put(static_cast<std::uint8_t>(forces.metric));
-  out.Put(static_cast<std::uint16_t>(std::lround(1000 * view_height)));
+  out.Put(std::uint16_t{0});
   for (const urdf::Pose& link : links) PutPose(out, link);
   for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], *person.model);
   for (std::size_t i = 0; i < forces.support.size; ++i) {
@@ -180,21 +179,15 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   out.Put(ghosts);
   out.Put(WaitedUnits(state.waited_nanos));
   out.PutFloat(state.view_heading);
-  std::vector<ViewRoom> rooms;
-  double below = 0;
-  for (std::size_t i = 0; i < people; ++i) {
-    rooms.push_back(RoomFor(state.people[i], state.floor_z));
-    below = std::max(below, rooms.back().below);
-  }
-  out.PutFloat(below);
+  out.Put(std::uint32_t{0});
   out.PutDouble(Micros(state.made_nanos));
   const history::Extent kept = moment.kept.value_or(history::Extent{});
   out.PutDouble(Micros(kept.first_nanos));
   out.PutDouble(static_cast<double>(kept.first_number));
   KINESCOPE_CHECK(out.size() - start == kStateHeaderBytes);
-  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], rooms[i].height);
+  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
-  for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person, 0);
+  for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person);
 }
 
 }  // namespace

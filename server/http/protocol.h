@@ -23,9 +23,9 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 6;
+inline constexpr std::uint8_t kProtocolVersion = 7;
 
-/// "kinescope.v6": the name of this version among the subprotocols of a WebSocket.
+/// "kinescope.v7": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();
 
 /// Whether a client that offers these subprotocols (a list, separated by commas) can read the

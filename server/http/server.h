@@ -75,7 +75,6 @@ struct CameraFraming {
   double narrowest_aspect = 1;  // width / height of a picture that a group must fit into
   double reach_m = 0;           // of a group, from the person nearest to the origin
   double height_m = 0;          // that `cameras` show
-  double spare_below = 0;       // of the height; people lower than that lower the target
 };
 
 /// Renders for the server. Implemented in server/app; any thread may call it. SetViewers,

@@ -22,11 +22,6 @@ double ShareGone(double dt_secs, double lag_secs) {
   return lag_secs > 0 ? 1 - std::exp(-std::max(0.0, dt_secs) / lag_secs) : 1;
 }
 
-void Show(const ViewRoom& room, render::GroundExtent& ground) {
-  ground.height = room.height;
-  ground.below = room.below;
-}
-
 std::vector<Ball> ShownBalls(const SceneState& state, const std::vector<Ball>& beside) {
   std::vector<Ball> balls = render::BallsOf(state);
   balls.insert(balls.end(), beside.begin(), beside.end());
@@ -50,7 +45,7 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
     if (place_) place_->vertical_fov_rad = *fov_rad_;
   }
   if (options.follow) follow_secs_ = *options.follow;
-  holds_room_ = fit_ == Fit::kAuto && fit == Fit::kOff && IsNamed();
+  holds_view_ = fit_ == Fit::kAuto && fit == Fit::kOff && IsNamed();
   if (fit_ == Fit::kAuto) fit_ = IsNamed() ? fit : Fit::kOff;
   if (fit_ != Fit::kOff && !keys_.empty()) {
     throw UsageError("--fit=" + options.fit.ToText() +
@@ -134,15 +129,20 @@ render::Camera CameraController::ForClip(const render::Camera& camera,
   return with_people;
 }
 
-// With lens, turn and frame, which are the same for all.
-render::Camera CameraController::Finished(render::Camera camera, const render::GroundExtent& ground,
-                                          const SceneState& state, double secs, double aspect,
-                                          const std::vector<Ball>& beside) const {
+render::Camera CameraController::Lensed(render::Camera camera, double secs) const {
   if (fov_rad_ && IsNamed()) camera = render::WithFov(camera, *fov_rad_);
   if (is_orthographic_) camera = render::Orthographic(camera);
   const double turn_rate =
       is_one_turn_ && clip_secs_ > 0 ? 2 * M_PI / clip_secs_ : orbit_rad_per_sec_;
-  if (turn_rate != 0) camera = render::Turned(camera, turn_rate * secs);
+  return turn_rate != 0 ? render::Turned(camera, turn_rate * secs) : camera;
+}
+
+// With lens, turn and frame, which are the same for all.
+render::Camera CameraController::Finished(const render::Camera& placed,
+                                          const render::GroundExtent& ground,
+                                          const SceneState& state, double secs, double aspect,
+                                          const std::vector<Ball>& beside) const {
+  const render::Camera camera = Lensed(placed, secs);
   if (fit_ == Fit::kClip && !clip_.balls().empty()) return ForClip(camera, ground, aspect);
   if (fit_ == Fit::kNow) {
     const std::vector<Ball> shown = ShownBalls(state, beside);
@@ -207,35 +207,68 @@ render::Camera CameraController::AimAt(const render::GroundExtent& ground, const
   return Finished(camera, ground, state, secs, aspect, beside);
 }
 
-ViewRoom CameraController::HeldRoom(const SceneState& state, double secs) {
-  return holds_room_ ? held_room_.Follow(render::NeededRoom(state), secs)
-                     : ViewRoom{render::kGroupFraming.height_m, 0};
+// Not of robots alone: the view is as large as they are.
+bool CameraController::HoldsView(const SceneState& state) const {
+  return holds_view_ && (!state.people.empty() || state.robots.empty());
 }
 
 render::Camera CameraController::Aim(const SceneState& state, double aspect,
                                      const std::vector<Ball>& beside) {
   const double secs = SecsOf(state);
   FollowHeading(state, secs);
-  render::GroundExtent ground = follower_.Follow(state, secs, follow_secs_);
-  Show(HeldRoom(state, secs), ground);
-  return AimAt(ground, state, secs, aspect, beside);
+  const render::GroundExtent& ground = follower_.Follow(state, secs, follow_secs_);
+  if (!HoldsView(state)) return AimAt(ground, state, secs, aspect, beside);
+  const render::Camera camera = Lensed(NamedAt(camera_, {}), secs);
+  const render::ViewPlace place = HeldPlace(state, camera, {aspect, free_area_}, secs);
+  return render::MovedTo(place, camera, ground.middle);
 }
 
-render::Camera CameraController::AimLive(const SceneState& state, double live_aspect,
-                                         double aspect) {
+// Before the first person comes, nothing is held.
+render::ViewPlace CameraController::HeldPlace(const SceneState& state, const render::Camera& camera,
+                                              const render::ViewShape& shape, double secs) {
+  const render::ViewHull needed = render::NeededHull(state, camera);
+  const bool has_met = !state.people.empty() || !held_view_.shown().is_empty();
+  return has_met ? held_view_.Follow(needed, camera, shape, secs)
+                 : render::PlaceFor(needed, camera, shape);
+}
+
+render::Camera CameraController::AimLive(const SceneState& state, const render::ViewShape& live,
+                                         const std::optional<render::ViewShape>& shape) {
   const double secs = SecsOf(state);
-  const ViewRoom room = HeldRoom(state, secs);
   heading_rad_ = LiveHeading(state);
+  if (HoldsView(state)) return AimHeld(state, secs, live, shape);
+  const render::ViewShape& own = shape.value_or(live);
+  free_area_ = own.area;
   if (follow_secs_) {
-    render::GroundExtent followed = follower_.Follow(state, secs, follow_secs_);
-    Show(room, followed);
-    return AimAt(followed, state, secs, aspect, {});
+    return AimAt(follower_.Follow(state, secs, follow_secs_), state, secs, own.aspect, {});
   }
-  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect, room);
-  if (aspect >= live_aspect) return AimAt(held, state, secs, aspect, {});
-  render::GroundExtent around = render::GroundExtentOf(state);
-  Show(room, around);
-  return AimAt(around, state, secs, aspect, {});
+  const render::GroundExtent& held = held_.Follow(state, secs, live.aspect);
+  // A narrower picture would lack who is at the sides of the live one.
+  const bool is_narrow = own.aspect < live.aspect;
+  return AimAt(is_narrow ? render::GroundExtentOf(state) : held, state, secs, own.aspect, {});
+}
+
+render::Camera CameraController::AimHeld(const SceneState& state, double secs,
+                                         const render::ViewShape& live,
+                                         const std::optional<render::ViewShape>& shape) {
+  const render::Camera camera = Lensed(NamedAt(camera_, {}), secs);
+  render::ViewPlace place = HeldPlace(state, camera, live, secs);
+  render::ViewHull shown = held_view_.shown();
+  shown.Add(render::NeededHull(state, camera));
+  const render::GroundExtent people = render::GroundExtentOf(state);
+  Eigen::Vector3d middle;
+  if (follow_secs_) {
+    middle = follower_.Follow(state, secs, follow_secs_).middle;
+  } else {
+    render::ShownRoom room;
+    room.height = place.height;
+    room.reach = std::max(room.reach, shown.half_width() - people.radius);
+    middle = held_.Follow(state, secs, live.aspect, room).middle;
+    place.height = held_.height();
+  }
+  const bool is_other = shape && shape->aspect != live.aspect;
+  if (!is_other) return render::MovedTo(place, camera, middle);
+  return render::MovedTo(render::PlaceFor(shown, camera, *shape), camera, people.middle);
 }
 
 // As the page has it, which the state is sent to.
@@ -245,15 +278,22 @@ double CameraController::LiveHeading(const SceneState& state) const {
 
 render::Camera CameraController::Alone(const SceneState& state, double secs, double aspect,
                                        const std::vector<Ball>& beside) const {
-  render::GroundExtent ground = render::GroundExtentOf(state);
-  if (holds_room_) Show(render::NeededRoom(state), ground);
-  return Finished(Placed(state, ground, secs), ground, state, secs, aspect, beside);
+  const render::GroundExtent ground = render::GroundExtentOf(state);
+  if (!HoldsView(state)) {
+    return Finished(Placed(state, ground, secs), ground, state, secs, aspect, beside);
+  }
+  const render::Camera camera = Lensed(NamedAt(camera_, {}), secs);
+  const render::ViewHull needed = render::NeededHull(state, camera);
+  const render::ViewPlace place = render::PlaceFor(needed, camera, {aspect, free_area_});
+  return render::MovedTo(place, camera, ground.middle);
 }
 
-render::Camera CameraController::OnlyLive(const SceneState& state, double aspect) const {
+render::Camera CameraController::OnlyLive(const SceneState& state,
+                                          const render::ViewShape& shape) const {
   CameraController alone = *this;
   alone.heading_rad_ = LiveHeading(state);
-  return alone.Alone(state, 0, aspect, {});
+  alone.free_area_ = shape.area;
+  return alone.Alone(state, 0, shape.aspect, {});
 }
 
 render::Camera CameraController::Only(const SceneState& state, double secs, double aspect,

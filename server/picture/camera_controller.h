@@ -12,7 +12,7 @@
 #include "render/camera/camera.h"
 #include "render/camera/framing.h"
 #include "render/camera/held_extent.h"
-#include "render/camera/held_room.h"
+#include "render/camera/held_view.h"
 #include "server/picture/camera_keys.h"
 #include "server/picture/camera_options.h"
 
@@ -43,13 +43,15 @@ class CameraController {
   render::Camera Aim(const SceneState& state, double aspect, const std::vector<Ball>& beside = {});
 
   /// The same for live pictures, whose future is not known: the camera stands still as long as it
-  /// can (HeldGroundExtent). A narrower picture than the live one, which would lack who is at its
-  /// sides, is aimed at the people.
-  /// @param live_aspect of the live picture, for which the camera stands still
-  render::Camera AimLive(const SceneState& state, double live_aspect, double aspect);
+  /// can (HeldGroundExtent, HeldView).
+  /// @param live   of the live picture, for which the camera stands still
+  /// @param shape  of another picture, which shows the same people. With the aspect of the live one
+  ///               it has its camera, else one that is aimed at the people.
+  render::Camera AimLive(const SceneState& state, const render::ViewShape& live,
+                         const std::optional<render::ViewShape>& shape = std::nullopt);
 
   /// For one live picture alone, which has the heading of all live pictures.
-  render::Camera OnlyLive(const SceneState& state, double aspect) const;
+  render::Camera OnlyLive(const SceneState& state, const render::ViewShape& shape) const;
 
   /// For one picture alone, `secs` after the clip's start: nothing lags.
   render::Camera Only(const SceneState& state, double secs, double aspect,
@@ -79,7 +81,7 @@ class CameraController {
   render::Camera NamedAt(const std::string& name, const render::GroundExtent& ground) const;
   render::Camera Placed(const SceneState& state, const render::GroundExtent& ground,
                         double secs) const;
-  render::Camera Finished(render::Camera camera, const render::GroundExtent& ground,
+  render::Camera Finished(const render::Camera& placed, const render::GroundExtent& ground,
                           const SceneState& state, double secs, double aspect,
                           const std::vector<Ball>& beside) const;
   render::Camera ForClip(const render::Camera& camera, const render::GroundExtent& ground,
@@ -87,7 +89,12 @@ class CameraController {
   render::Camera AimAt(const render::GroundExtent& ground, const SceneState& state, double secs,
                        double aspect, const std::vector<Ball>& beside) const;
   double SecsOf(const SceneState& state);
-  ViewRoom HeldRoom(const SceneState& state, double secs);
+  bool HoldsView(const SceneState& state) const;
+  render::Camera Lensed(render::Camera camera, double secs) const;
+  render::ViewPlace HeldPlace(const SceneState& state, const render::Camera& camera,
+                              const render::ViewShape& shape, double secs);
+  render::Camera AimHeld(const SceneState& state, double secs, const render::ViewShape& live,
+                         const std::optional<render::ViewShape>& shape);
   void FollowHeading(const SceneState& state, double secs);
   double LiveHeading(const SceneState& state) const;
   render::Camera Alone(const SceneState& state, double secs, double aspect,
@@ -100,7 +107,7 @@ class CameraController {
   std::optional<double> fov_rad_, follow_secs_;
   double orbit_rad_per_sec_ = 0;
   Fit fit_ = Fit::kOff;
-  bool holds_room_ = false;  // of an automatic fit whose future is not known
+  bool holds_view_ = false;  // of an automatic fit whose future is not known
   render::FreeArea free_area_;
   CameraFrame frame_ = CameraFrame::kStart;
   // Of the prescan:
@@ -112,7 +119,7 @@ class CameraController {
   std::optional<std::int64_t> start_nanos_;
   Follower follower_;
   render::HeldGroundExtent held_;
-  render::HeldRoom held_room_;
+  render::HeldView held_view_;
   std::optional<double> heading_rad_;  // by which named cameras are turned
   double heading_at_secs_ = 0;
 };

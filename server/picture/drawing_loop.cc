@@ -15,10 +15,6 @@ double MillisBetween(DrawingLoop::Clock::time_point from, DrawingLoop::Clock::ti
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-double AspectOf(const render::PictureSpec& view) {
-  return static_cast<double>(view.width) / view.height;
-}
-
 }  // namespace
 
 render::PictureSpec LiveView(int width, int height) {
@@ -104,13 +100,18 @@ std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& 
   return Enqueue({view, std::nullopt, std::move(aim), {}});
 }
 
-double DrawingLoop::LiveAspect() const {
-  return static_cast<double>(settings_.width) / settings_.height;
+render::PictureSpec DrawingLoop::LiveSpec() const {
+  render::PictureSpec view = LiveView(settings_.width, settings_.height);
+  settings_.people.ApplyTo(view.look);
+  view.look.trails = trails_.Make();
+  view.look.ghosts = state_->ghosts;
+  if (is_dark_) view.look.theme = render::Theme::kDark;
+  return view;
 }
 
-render::Camera DrawingLoop::AimLive(double aspect) {
+render::Camera DrawingLoop::AimLive(const render::ViewShape& shape) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return camera_.AimLive(*state_, LiveAspect(), aspect);
+  return camera_.AimLive(*state_, shapes_.Of(LiveSpec(), *state_), shape);
 }
 
 std::future<render::Image> DrawingLoop::Enqueue(Order order) {
@@ -167,12 +168,8 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   // neither after a pause nor after a picture that came late.
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
-  render::PictureSpec view = LiveView(settings_.width, settings_.height);
-  settings_.people.ApplyTo(view.look);
-  view.look.trails = trails_.Make();
-  view.look.ghosts = state->ghosts;
-  if (is_dark_) view.look.theme = render::Theme::kDark;
-  const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
+  const render::PictureSpec view = LiveSpec();
+  const render::Camera camera = camera_.AimLive(*state, shapes_.Of(view, *state));
   lock.unlock();
   std::string error;
   Clock::time_point drawn = begin;
@@ -206,18 +203,18 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   const std::shared_ptr<const SceneState> state = state_;
   order.view.look.trails = trails_.Make();
   order.view.look.ghosts = state->ghosts;
-  const double aspect = AspectOf(order.view);
+  const render::ViewShape shape = shapes_.Of(order.view, *state);
   std::optional<render::Camera> camera;
   if (order.camera) {
-    camera = order.camera->OnlyLive(*state, aspect);
+    camera = order.camera->OnlyLive(*state, shape);
   } else if (!order.aim) {
-    camera = camera_.AimLive(*state, LiveAspect(), aspect);
+    camera = camera_.AimLive(*state, shapes_.Of(LiveSpec(), *state), shape);
   }
   lock.unlock();
   render::Image image;
   std::exception_ptr failure;
   try {
-    if (!camera) camera = order.aim(aspect);
+    if (!camera) camera = order.aim(shape);
     image = StartedRenderer().Render(*state, *camera, order.view);
   } catch (...) {
     failure = std::current_exception();

@@ -22,6 +22,7 @@
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/people_look.h"
+#include "server/picture/picture_shapes.h"
 #include "server/picture/trails.h"
 
 namespace kinescope::app {
@@ -59,7 +60,7 @@ class DrawingLoop {
   /// Receives every live picture, on the drawing thread.
   using Deliver = std::function<void(const render::Image& image, const SceneState& state,
                                      const render::Camera& camera)>;
-  using Aim = std::function<render::Camera(double aspect)>;
+  using Aim = std::function<render::Camera(const render::ViewShape& shape)>;
 
   /// Requests that may wait; more would be a client that misbehaves.
   static constexpr std::size_t kMaxWaiting = 16;
@@ -88,10 +89,10 @@ class DrawingLoop {
   /// @throws std::runtime_error if the driver does not respond, or if kMaxWaiting requests wait.
   std::future<render::Image> Request(const render::PictureSpec& view,
                                      std::optional<CameraController> camera = std::nullopt);
-  /// As above, by the camera that `aim` returns for width / height when it is the picture's turn.
+  /// As above, by the camera that `aim` returns for its shape when it is the picture's turn.
   std::future<render::Image> RequestAimed(const render::PictureSpec& view, Aim aim);
   /// Where the camera of the live picture is now, for a picture of this shape.
-  render::Camera AimLive(double aspect);
+  render::Camera AimLive(const render::ViewShape& shape);
   DrawingStatus status() const;
 
  private:
@@ -102,7 +103,6 @@ class DrawingLoop {
     std::promise<render::Image> picture;
   };
 
-  double LiveAspect() const;
   std::future<render::Image> Enqueue(Order order);
   void Run();
   // Called with `lock` held, which they release while they wait or draw.
@@ -110,6 +110,7 @@ class DrawingLoop {
   void DrawLive(std::unique_lock<std::mutex>& lock);
   void DrawOrder(std::unique_lock<std::mutex>& lock);
   // Called with mutex_ locked.
+  render::PictureSpec LiveSpec() const;
   void NoteReturn();
   void NoteDrawn();
   void RefuseOrders(const std::string& reason);
@@ -128,6 +129,7 @@ class DrawingLoop {
   std::shared_ptr<const SceneState> state_;
   CameraController camera_;  // of the live picture
   Trails trails_;
+  PictureShapes shapes_;
   bool live_is_due_ = false;  // the newest state, camera, theme or viewer has no picture yet
   bool is_dark_ = false;      // the live picture
   bool stop_ = false;

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { after, before } from 'node:test';
-import { aim, groundOf } from '../../web/cameras.js';
+import { LiveCamera } from '../../web/live_camera.js';
 import { decodeState } from '../../web/state_codec.js';
 import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng } from './open_page.mjs';
 
@@ -30,6 +30,20 @@ export async function record(motion, seconds, person, change = (frame) => frame)
   const last = change(frames.at(-1)[0].replace(/^<frame [^>]*>/, ''));
   await writeFile(file, xml.replace(/(<frame [^>]*type="normal"[^>]*>)[^]*?<\/frame>/g, `$1${last}`));
   return file;
+}
+
+/** The people in the text of a frame elsewhere.
+ *  @param {string} frame
+ *  @param {(quaternion: number[]) => number[]} turn  w, x, y, z
+ *  @param {(point: number[]) => number[]} move */
+export function moved(frame, turn, move) {
+  const changed = (tag, size, change) => (text) => text.replace(new RegExp(`(<${tag}>)([^<]*)`), (_, opened, values) => {
+    const numbers = values.trim().split(/\s+/).map(Number);
+    const parts = Array.from({ length: numbers.length / size }, (__, i) => change(numbers.slice(size * i, size * i + size)));
+    return opened + parts.flat().join(' ');
+  });
+  return [changed('orientation', 4, turn), changed('position', 3, move), changed('centerOfMass', 3, move)]
+    .reduce((text, change) => change(text), frame);
 }
 
 /** Serves it; the page then shows its last sample. */
@@ -87,11 +101,20 @@ export async function cameraOf(page, name, { width, height }) {
       socket.close();
     };
   }));
-  const { people, floor, viewHeading: heading, viewBelow: below } = decodeState(Uint8Array.from(bytes).buffer);
-  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/v1/cameras')).json());
-  const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
-    height: people[0].viewHeight, below, heading };
-  const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
+  const state = decodeState(Uint8Array.from(bytes).buffer);
+  const { cameras, framing, model, area } = await page.evaluate(async () => {
+    const [{ freeAreaOf }, { cameras, framing }, model] = await Promise.all([import('./free_area.js'),
+      ...['cameras', 'model'].map(async (name) => (await fetch(`api/v1/${name}`)).json())]);
+    const boxes = ['view', 'cameras', 'points', 'loads-shown', 'banner']
+      .map((id) => document.getElementById(id).getBoundingClientRect());
+    return { cameras, framing, model, area: freeAreaOf(boxes[0], boxes.slice(1)) };
+  });
+  const camera = new LiveCamera();
+  camera.setOutlines(model.people);
+  const middle = camera.setState(state, framing.reach_m);
+  camera.setAspect(width / height);
+  camera.setArea(area);
+  const { position, target, fovDegrees } = camera.aim(cameras.find((each) => each.name === name), middle);
   return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
 }
 
@@ -132,14 +155,15 @@ export const onlyView = (page, isOnly) => page.evaluate((hidden) => {
 }, isOnly);
 
 /** The named view on the page, and which of its pixels differ from those of a page that cannot load `part`: the routes
- *  that are blocked then, and a piece of the address of what is loaded last. `status`: what the page says when it shows
- *  the moment that is compared. */
-export async function whatCovers({ url }, camera, part, status = { 'status-note': 'ended' }) {
+ *  that are blocked then (or what is answered instead), and a piece of the address of what is loaded last. `status`: what the page says when it shows
+ *  the moment that is compared. The overlays are hidden, but leave their room. */
+export async function whatCovers({ url }, camera, part, status = { 'status-note': 'ended' }, viewport = TALL) {
   const open = async (hasPart) => {
     const visit = await openPage(`${url}?hide=shadows`, {
-      colorScheme: 'dark', viewport: TALL,
+      colorScheme: 'dark', viewport,
       beforeLoad: async (page) => {
-        if (!hasPart) await page.route(part.route, (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
+        const block = (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' });
+        if (!hasPart) await page.route(part.route, part.answer ?? block);
       },
     });
     const { page } = visit;

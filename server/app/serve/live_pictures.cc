@@ -64,9 +64,9 @@ std::vector<std::uint8_t> LivePictures::SnapshotPng(const http::SnapshotRequest&
     named.emplace(ParseCamera(camera), CameraOptions());
   }
   return render::EncodePng(
-      (named
-           ? snapshots_.Request(view, std::move(named))
-           : snapshots_.RequestAimed(view, [this](double aspect) { return live_.AimLive(aspect); }))
+      (named ? snapshots_.Request(view, std::move(named))
+             : snapshots_.RequestAimed(
+                   view, [this](const render::ViewShape& shape) { return live_.AimLive(shape); }))
           .get());
 }
 

@@ -35,8 +35,8 @@ std::vector<http::CameraView> CameraViews() {
 
 http::CameraFraming FramingOfCameras() {
   const render::GroupFraming& framing = render::kGroupFraming;
-  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect,
-          framing.reach_m,     framing.height_m, framing.spare_below};
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect, framing.reach_m,
+          framing.height_m};
 }
 
 // @throws UsageError

@@ -6,8 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <vector>
 
 #include "core/palette.h"
+#include "core/person_links.h"
+#include "core/person_outline.h"
 #include "tests/mesh_file_on_demand.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
@@ -48,6 +51,28 @@ TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   for (const urdf::Link& link : state.people[0].model->robot.links) known += link.visuals.size();
   EXPECT_EQ(told, known);
   EXPECT_EQ(person["links"][urdf::kHead]["name"], "skeleton_head");
+}
+
+TEST(ModelJson, HasTheOutlineByWhichPicturesFrameAPerson) {
+  SceneState state = Scene();
+  PersonState& person = state.people[0];
+  kinescope::testing::Wear(person, 0.3,
+                           kinescope::testing::WornModel(*person.model, "/tmp/some meshes"));
+  person.forces.hands = {};
+  const json outline = json::parse(ModelJson(&state, {}))["people"][0]["outline"];
+  const std::vector<urdf::Pose> links = VisibleLinkPoses(person);
+  const std::vector<Ball> balls = BallsOf(person);
+  ASSERT_EQ(outline.size(), balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const json& point = outline[i];
+    const urdf::Pose& link = links.at(point["link"].get<std::size_t>());
+    const Eigen::Vector3d in_link(point["position"][0].get<double>(),
+                                  point["position"][1].get<double>(),
+                                  point["position"][2].get<double>());
+    const Eigen::Vector3d place = link.position + link.orientation * in_link;
+    EXPECT_LT((place - balls[i].center).norm(), 1e-5) << point;
+    EXPECT_NEAR(point["radius"].get<double>(), balls[i].radius, 1e-5) << point;
+  }
 }
 
 TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
@@ -231,8 +256,8 @@ TEST(DetailsJson, IsEqualForEqualStates) {
 }
 
 TEST(CamerasJson, ContainsTheParametersOfEveryView) {
-  const json told = json::parse(
-      CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40, 2.5, 0.036}, "front", false));
+  const json told =
+      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40, 2.5}, "front", false));
   EXPECT_EQ(told["live"], "front");
   EXPECT_EQ(told["has_pictures"], false);
   ASSERT_EQ(told["cameras"].size(), 7u);
@@ -242,8 +267,7 @@ TEST(CamerasJson, ContainsTheParametersOfEveryView) {
                                    {"margin_m", 0.5},
                                    {"narrowest_aspect", 1.25},
                                    {"reach_m", 40},
-                                   {"height_m", 2.5},
-                                   {"spare_below", 0.036}}));
+                                   {"height_m", 2.5}}));
 }
 
 // A person with the mesh of the pelvis; the URDF names those of all 23 segments.

@@ -29,7 +29,6 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
-#include "core/person_outline.h"
 #include "core/skin_inputs.h"
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
@@ -260,32 +259,26 @@ json Describe() {
                       {"quaternion", {q.x(), q.y(), q.z(), q.w()}},
                       {"size", Numbers(solid.size)}});
     }
-    people.push_back(
-        {{"character", person.character},
-         {"revision", 7},
-         {"com", Numbers(*person.com)},
-         {"cop", Numbers(*person.cop)},
-         {"comSource", "mvn"},
-         {"massIsAssumed", true},
-         {"isDynamic", true},
-         {"groundIsMeasured", false},
-         {"leans", false},
-         {"comDisagrees", false},
-         {"compression", person.forces.lumbar->compression},
-         {"margin", *person.forces.margin_of_stability},
-         {"comMinusMvn", nullptr},
-         {"heldKg", {5, 0}},
-         {"metric", "total"},
-         {"viewHeight", std::round(1000 * RoomFor(person, state.floor_z).height) / 1000},
-         {"support", support},
-         {"feet", feet},
-         {"held", held},
-         {"links", links},
-         {"loads", loads}});
-  }
-  double below = 0;
-  for (const PersonState& person : state.people) {
-    below = std::max(below, RoomFor(person, state.floor_z).below);
+    people.push_back({{"character", person.character},
+                      {"revision", 7},
+                      {"com", Numbers(*person.com)},
+                      {"cop", Numbers(*person.cop)},
+                      {"comSource", "mvn"},
+                      {"massIsAssumed", true},
+                      {"isDynamic", true},
+                      {"groundIsMeasured", false},
+                      {"leans", false},
+                      {"comDisagrees", false},
+                      {"compression", person.forces.lumbar->compression},
+                      {"margin", *person.forces.margin_of_stability},
+                      {"comMinusMvn", nullptr},
+                      {"heldKg", {5, 0}},
+                      {"metric", "total"},
+                      {"support", support},
+                      {"feet", feet},
+                      {"held", held},
+                      {"links", links},
+                      {"loads", loads}});
   }
   json objects = json::array();
   for (const TrackedObject& object : state.objects) {
@@ -313,7 +306,6 @@ json Describe() {
             {"floor", state.floor_z},
             {"waitedMillis", state.waited_nanos / 1'000'000},
             {"viewHeading", state.view_heading},
-            {"viewBelow", static_cast<float>(below)},
             {"madeMicros", state.made_nanos / 1000},
             {"oldestMicros", 2'000'000},
             {"oldestNumber", 12},

@@ -198,6 +198,6 @@ std::vector<CameraView> MakeCameras() {
           view("three_quarter", -38, 14)};
 }
 
-CameraFraming MakeFraming() { return {1.9, 0.7, 4.0 / 3, 50, 2.5, 0.036}; }
+CameraFraming MakeFraming() { return {1.9, 0.7, 4.0 / 3, 50, 2.5}; }
 
 }  // namespace kinescope::http::testing

@@ -25,6 +25,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double kAspect = 16.0 / 9;
+const render::ViewShape kShape{kAspect, {{0, 0.07, 1, 1}, {}}};  // a title
 
 SceneState SceneAt(double secs, double x) {
   SceneState state =
@@ -148,14 +149,15 @@ TEST(CameraController, TurnsLivePicturesByTheHeadingThatThePageHas) {
   SceneState state = TurnedScene(130);
   state.view_heading = 40 * M_PI / 180;
   CameraController controller(ParseCamera("front"), {});
-  EXPECT_NEAR(Side(controller.AimLive(state, kAspect, kAspect)), 40, 1e-6);
-  EXPECT_NEAR(Side(controller.OnlyLive(state, kAspect)), 40, 1e-6);
-  EXPECT_NEAR(Side(controller.AimLive(state, kAspect, 0.5)), 40, 1e-6) << "a narrow snapshot";
+  EXPECT_NEAR(Side(controller.AimLive(state, kShape)), 40, 1e-6);
+  EXPECT_NEAR(Side(controller.OnlyLive(state, kShape)), 40, 1e-6);
+  EXPECT_NEAR(Side(controller.AimLive(state, kShape, render::ViewShape{0.5, {}})), 40, 1e-6)
+      << "a narrow snapshot";
   CameraOptions options;
   options.camera_frame = CameraFrame::kWorld;
   CameraController in_world(ParseCamera("front"), options);
-  EXPECT_NEAR(Side(in_world.AimLive(state, kAspect, kAspect)), 0, 1e-6);
-  EXPECT_NEAR(Side(in_world.OnlyLive(state, kAspect)), 0, 1e-6);
+  EXPECT_NEAR(Side(in_world.AimLive(state, kShape)), 0, 1e-6);
+  EXPECT_NEAR(Side(in_world.OnlyLive(state, kShape)), 0, 1e-6);
 }
 
 // Of a picture, as shares of its height and width.
@@ -194,7 +196,7 @@ class LiveTake {
       builder.OnSample(subject->At(at));
       SceneState state = *newest;
       state.stamp_nanos = 5'000'000'000 + std::llround(1e9 * secs_);
-      const render::Camera camera = controller_.AimLive(state, kAspect, kAspect);
+      const render::Camera camera = controller_.AimLive(state, kShape);
       check(at, SpanOf(state, camera), render::ShownHeight(camera));
     }
   }

@@ -30,7 +30,6 @@ TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
   EXPECT_EQ(framing.at("margin_m").get<double>(), render::kGroupFraming.margin_m);
   EXPECT_EQ(framing.at("narrowest_aspect").get<double>(), render::kGroupFraming.narrowest_aspect);
   EXPECT_EQ(framing.at("height_m").get<double>(), render::kGroupFraming.height_m);
-  EXPECT_EQ(framing.at("spare_below").get<double>(), render::kGroupFraming.spare_below);
   std::map<std::string, int> views;
   for (const auto& view : page.at("views")) {
     const std::string name = view.at("name");

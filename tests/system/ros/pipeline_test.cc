@@ -21,8 +21,9 @@
 #include <set>
 
 #include "render/camera/camera.h"
-#include "render/camera/held_room.h"
 #include "render/image/png_file.h"
+#include "server/picture/camera_controller.h"
+#include "server/picture/picture_shapes.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 #include "server/subject/subject.h"
@@ -182,11 +183,9 @@ TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   app::SceneBuilder builder({}, "", 0, [&](const auto& newest) { state = newest; });
   builder.OnCharacter(subject::MakeMotion("t_pose")->character());
   builder.OnSample(subject::MakeMotion("t_pose")->At(0));
-  render::GroundExtent ground = render::GroundExtentOf(*state);
-  const ViewRoom room = render::NeededRoom(*state);
-  ground.height = room.height;
-  ground.below = room.below;
-  const render::Camera camera = render::NamedCameraAt("front", ground);
+  const render::Camera camera =
+      app::CameraController(app::ParseCamera("front"), {})
+          .OnlyLive(*state, app::PictureShapes().Of({960, 540, 2, "", true}, *state));
   const auto project = [&](const Eigen::Vector3d& point) {
     return render::Project(point, camera, image.width, image.height);
   };

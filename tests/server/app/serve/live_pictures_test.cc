@@ -16,6 +16,7 @@
 #include "core/system/errors.h"
 #include "core/system/scratch_folder.h"
 #include "render/image/png_file.h"
+#include "server/picture/picture_shapes.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/picture/fake_renderer.h"
 
@@ -178,8 +179,9 @@ TEST_F(LivePicturesTest, ReportsAnInvalidSnapshotOnlyToItsRequester) {
 std::vector<std::uint8_t> PngBy(const std::string& camera, const CameraOptions& moves) {
   const auto scene = NumberedScene(1);
   CameraController controller(ParseCamera(camera), moves);
-  return render::EncodePng(render::MakeRenderer()->Render(*scene, controller.Aim(*scene, 64.0 / 48),
-                                                          {64, 48, 2, "", true}));
+  const render::PictureSpec view{64, 48, 2, "", true};
+  const render::Camera live = controller.OnlyLive(*scene, PictureShapes().Of(view, *scene));
+  return render::EncodePng(render::MakeRenderer()->Render(*scene, live, view));
 }
 
 TEST(LivePictures, GoOnWhileASnapshotIsRendered) {

@@ -8,6 +8,7 @@
 #include <future>
 #include <vector>
 
+#include "server/picture/picture_shapes.h"
 #include "server/picture/pinhole.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/server/ros/test_person.h"
@@ -64,8 +65,8 @@ TEST(RosCameraLoop, SendsThePictureOfARendererAndTheCalibrationOfItsCamera) {
   loop.SetSubscribers(1);
   const Sent sent = first.Get();
   EXPECT_EQ(sent.stamp_nanos, 7);
-  const render::Camera camera =
-      CameraController(ParseCamera("front"), {}).AimLive(*state, 96.0 / 64, 96.0 / 64);
+  const render::Camera camera = CameraController(ParseCamera("front"), {})
+                                    .AimLive(*state, PictureShapes().Of(LiveView(96, 64), *state));
   EXPECT_TRUE(sent.rgba == render::MakeRenderer()->Render(*state, camera, LiveView(96, 64)).rgba)
       << "not the same bytes";
   const Pinhole pinhole = PinholeOf(camera, 64);

@@ -115,8 +115,8 @@ TEST(ServeConfig, TurnsThePageAndItsPicturesWithThePersonAndTheRosCameraNever) {
   SceneState turned;
   turned.view_heading = 1;
   const auto moves = [&](const CameraController& camera) {
-    const Eigen::Vector3d before = camera.OnlyLive(SceneState(), 1).position;
-    return (camera.OnlyLive(turned, 1).position - before).norm();
+    const Eigen::Vector3d before = camera.OnlyLive(SceneState(), render::ViewShape{1, {}}).position;
+    return (camera.OnlyLive(turned, render::ViewShape{1, {}}).position - before).norm();
   };
   EXPECT_GT(moves(config.pictures->camera), 1);
   EXPECT_EQ(moves(config.ros_camera->camera), 0);
