@@ -58,7 +58,7 @@ bool Contains(const GroundExtent& aimed, const GroundExtent& people, const Pictu
 
 // The nearest aim at the middle of `recent` that shows all of it.
 GroundExtent Around(const GroundExtent& recent, const Picture& picture) {
-  const GroundExtent nearest{recent.middle, picture.radius};
+  GroundExtent nearest{recent.middle, picture.radius};
   if (Contains(nearest, recent, picture)) return nearest;
   return {recent.middle, std::max(picture.radius, recent.radius)};
 }
