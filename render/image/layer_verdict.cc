@@ -26,10 +26,12 @@ LayerVerdict JudgePixels(const PictureDifference& difference) {
   const PixelLayer& pixels = difference.pixels;
   const DifferenceLimits& limits = difference.limits;
   const double all = static_cast<double>(difference.actual_width) * difference.actual_height;
-  std::string text = fmt::format(
-      "{} beyond {} of colour distance ({:.2g} %, limit {}), largest distance {:.2f}",
-      pixels.changed, limits.color_distance, 100 * static_cast<double>(pixels.changed) / all,
-      limits.changed_pixels, pixels.largest_distance);
+  const double share = 100 * static_cast<double>(pixels.changed) / all;
+  std::string text =
+      fmt::format("{} beyond {} of colour distance ({} %, limit {}), largest distance {:.2f}",
+                  pixels.changed, limits.color_distance,
+                  share < 10 ? fmt::format("{:.2g}", share) : fmt::format("{:.0f}", share),
+                  limits.changed_pixels, pixels.largest_distance);
   if (pixels.on_edges > 0) text += fmt::format(", {} more on smoothed edges", pixels.on_edges);
   if (!pixels.clusters.empty()) {
     const Cluster& largest = pixels.clusters.front();

@@ -76,13 +76,14 @@ TEST_F(GoldenPage, IsTheSameEachTime) {
 }
 
 TEST_F(GoldenPage, NamesWhatHasChanged) {
-  const std::vector<std::string> names = {"colour", "missing", "moved", "text"};
+  const std::vector<std::string> names = {"colour", "label", "missing", "moved", "text"};
   for (const std::string& name : names) {
     WritePage("", "", name);
     WriteCase(name, "page: 'pages of #1/" + name + ".html'\nsize: 400x300\n");
   }
   ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
   WritePage("#060", "#600", "colour");
+  WritePage("<button id=go>", "<button id=go aria-label=Stop>", "label");
   WritePage("<button id=go>Start</button>", "", "missing");
   WritePage("#bar{", "#bar{margin-bottom:3px;", "moved");
   WritePage("0.72", "0.73", "text");
@@ -90,7 +91,8 @@ TEST_F(GoldenPage, NamesWhatHasChanged) {
   EXPECT_THAT(difference, HasSubstr("knee: expected “right knee: 0.72”, found “right knee: 0.73”"));
   EXPECT_THAT(difference, HasSubstr("go: text “Start” is missing"));
   EXPECT_THAT(difference, HasSubstr("go: texts moved by up to 3.0 px"));
-  EXPECT_THAT(difference, HasSubstr("pixels: 8000 beyond 0.05 of colour distance"));
+  EXPECT_THAT(difference, HasSubstr("8000 beyond 0.05 of colour distance"));
+  EXPECT_THAT(difference, HasSubstr("go: expected “Start”, found “Start (Stop)”"));
   EXPECT_THAT(difference, HasSubstr("report                   same"));
 }
 

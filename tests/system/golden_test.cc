@@ -131,7 +131,7 @@ TEST_F(GoldenCheck, ComparesTheOthersWhenACaseCannotBeDrawn) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("a_key.yaml:2"), HasSubstr("colour"), HasSubstr("b_cut.yaml"),
-                    HasSubstr("c_missing.yaml: source"), HasSubstr("nowhere.mvnx"),
+                    HasSubstr("c_missing.yaml:1: source"), HasSubstr("nowhere.mvnx"),
                     HasSubstr("d_late"), HasSubstr("bend                     same"),
                     HasSubstr("4 of 5 pictures could not be compared")));
 }
@@ -148,6 +148,8 @@ TEST_F(GoldenCheck, NamesTheLineThatIsWrong) {
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.out, HasSubstr("unknown option 'camra'; nearest: camera (see `kinescope"));
+  EXPECT_THAT(result.out, HasSubstr("c_missing.yaml:2: source '"));
+  EXPECT_THAT(result.out, HasSubstr("d_late.yaml:2: golden case d_late: time: 800000"));
   EXPECT_THAT(result.out, HasSubstr("bend                     same"));
   const auto run = nlohmann::json::parse(testing::ReadFile(case_ / "out/run.json"));
   const std::map<std::string, int> expected = {{"a_key", 3},  {"b_cut", 3},  {"c_missing", 2},

@@ -13,6 +13,7 @@
 #include "core/system/words.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
+#include "server/app/golden/accept_lock.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/print.h"
 
@@ -123,8 +124,12 @@ class Accepting {
 
 }  // namespace
 
+fs::path FolderFor(const GoldenRun& run, const AcceptSettings& settings) {
+  return settings.folder.empty() ? run.folder : fs::path(settings.folder);
+}
+
 GoldenSuite SuiteFor(const GoldenRun& run, const AcceptSettings& settings) {
-  return FindGoldenSuite(settings.folder.empty() ? run.folder : fs::path(settings.folder), {});
+  return FindGoldenSuite(FolderFor(run, settings), {});
 }
 
 void TakeCase(const CaseVerdict& drawn, const AcceptSettings& settings, GoldenSuite& suite) {
@@ -138,6 +143,7 @@ int AcceptRun(const AcceptSettings& settings) {
     Print("The run has nothing to accept: every case that was drawn is the same\n");
     return 0;
   }
+  const AcceptLock lock(FolderFor(run, settings));
   GoldenSuite suite = SuiteFor(run, settings);
   std::size_t taken = 0;
   for (const CaseVerdict* each : chosen) {

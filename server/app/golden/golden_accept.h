@@ -18,8 +18,10 @@ struct AcceptSettings {
   bool takes_other_environment = false;
 };
 
-/// The cases that pictures of `run` are accepted for, as they are now. @throws as
-/// FindGoldenSuite().
+/// Of the cases that pictures of `run` are accepted for.
+std::filesystem::path FolderFor(const GoldenRun& run, const AcceptSettings& settings);
+
+/// Those cases, as they are now. @throws as FindGoldenSuite().
 GoldenSuite SuiteFor(const GoldenRun& run, const AcceptSettings& settings);
 
 /// Makes what the run has drawn of one case the accepted picture, and its entry of `suite.lock`,

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "core/system/scratch_folder.h"
+#include "server/app/golden/accept_lock.h"
 #include "server/app/golden/golden_accept.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_update.h"
@@ -29,6 +30,7 @@ struct UpdateOptions {
 
 int UpdateAll(const UpdateOptions& options) {
   RefuseToAcceptInCi();
+  const AcceptLock lock(*options.cases.folder);
   if (!options.pictures->empty()) {
     GoldenSuite all = FindGoldenSuite(*options.cases.folder, {});
     MovePictures(all, *options.pictures);

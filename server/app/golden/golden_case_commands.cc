@@ -7,6 +7,7 @@
 #include "core/system/json_text.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_new.h"
+#include "server/app/golden/golden_report_text.h"
 #include "server/app/print.h"
 
 namespace kinescope::app {
@@ -22,7 +23,7 @@ int WriteCase(const NewCase& values, const options::OptionList& given) {
   keys.Remove({"folder", "name"});
   const auto path = WriteNewCase(*values.folder, *values.name, keys);
   Print("{}\nNext: kinescope golden check {} {} draws it, and says how to accept it\n",
-        path.string(), *values.folder, *values.name);
+        path.string(), ShellWord(*values.folder), ShellWord(*values.name));
   return 0;
 }
 

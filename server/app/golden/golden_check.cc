@@ -57,8 +57,14 @@ std::vector<CaseVerdict> NotDrawn(const GoldenSuite& suite, const FoundCase& fou
 
 // What a person asks of a clip: when does it begin to differ?
 void NoteFirstDifference(std::vector<CaseVerdict>& verdicts) {
+  // A recording that has changed elsewhere is no difference of a picture.
   const auto differs = [](const CaseVerdict& verdict) {
-    return verdict.frame && verdict.outcome != Outcome::kSame;
+    const auto is_of_picture = [](const GoldenFinding& finding) {
+      return finding.kind != FindingKind::kInput;
+    };
+    return verdict.frame && verdict.outcome != Outcome::kSame &&
+           (verdict.findings.empty() ||
+            std::any_of(verdict.findings.begin(), verdict.findings.end(), is_of_picture));
   };
   const auto first = std::find_if(verdicts.begin(), verdicts.end(), differs);
   if (first == verdicts.end()) return;
@@ -125,7 +131,12 @@ std::vector<CaseVerdict> CheckCase(const GoldenSuite& suite, const FoundCase& fo
     });
   } catch (const std::exception& error) {
     if (cannot_write) std::rethrow_exception(cannot_write);
-    add(not_compared(suite.CaseFileOf(found).string() + ": " + error.what()));
+    const fs::path file = suite.CaseFileOf(found);
+    const std::string text = error.what();
+    const bool names_line = text.find(file.string() + ":") != std::string::npos;
+    add(not_compared(names_line ? text
+                                : fmt::format("{}:{}: {}", file.string(),
+                                              LineOfError(found, file, text), text)));
     return verdicts;
   }
   for (CaseVerdict& missing : NotDrawn(suite, found, verdicts)) add(std::move(missing));

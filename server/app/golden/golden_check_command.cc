@@ -7,8 +7,10 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
 #include "server/app/golden/golden_check.h"
@@ -17,6 +19,7 @@
 #include "server/app/golden/golden_jobs.h"
 #include "server/app/golden/golden_junit.h"
 #include "server/app/golden/golden_report.h"
+#include "server/app/golden/golden_report_text.h"
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_verdict_json.h"
 #include "server/app/print.h"
@@ -46,7 +49,7 @@ void PrintSummary(const OutcomeCounts& counts, const CheckOptions& options) {
   Print("{}\n", Headline(counts));
   if (counts.ExitCode() == 0) return;
   Print("Report: {}/report.html; to accept what it shows: kinescope golden review {}\n",
-        *options.out, *options.out);
+        *options.out, ShellWord(*options.out));
 }
 
 // What GitHub reads from standard output. Between Begin and End it obeys nothing, because names in
@@ -88,15 +91,42 @@ void WriteResults(const CheckOptions& options, const GoldenSuite& suite,
   }
 }
 
-int CheckAll(const CheckOptions& options) {
-  const GoldenSuite suite = options.cases.Find();
-  const CheckSettings settings = {*options.out, *options.is_strict, *options.keeps_all};
-  if (*options.answers) {
-    AnswerOrders(suite, settings, options.jobs.backend);
-    return 0;
+// What an earlier run has left would be taken for what this one found.
+void RemoveOldResults(const CheckOptions& options) {
+  namespace fs = std::filesystem;
+  if (options.out->empty()) throw UsageError("--out: expected a folder");
+  std::error_code ignored;
+  if (fs::equivalent(*options.out, *options.cases.folder, ignored)) {
+    throw UsageError(
+        fmt::format("--out={}: is the folder of the cases, where its pictures would "
+                    "belong to no case; choose another one",
+                    *options.out));
   }
-  const JobSettings jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
   ClearRun(*options.out);
+  for (const std::string& file : {*options.junit, *options.summary}) {
+    if (!file.empty() && fs::is_regular_file(file, ignored)) fs::remove(file, ignored);
+  }
+}
+
+// CI servers show why nothing was compared.
+void ReportFailure(const CheckOptions& options, const std::string& reason) {
+  CaseVerdict verdict;
+  verdict.name = "golden check";
+  verdict.file = *options.cases.folder;
+  verdict.outcome = Outcome::kNotCompared;
+  verdict.reason = reason;
+  if (!options.junit->empty()) {
+    render::WriteNewFile(*options.junit, ToJunit({verdict}, *options.cases.folder, *options.out));
+  }
+  if (!options.summary->empty()) {
+    render::WriteNewFile(*options.summary, ToMarkdown({verdict}, *options.out));
+  }
+  GithubOutput(*options.json).End({verdict}, *options.out);
+}
+
+int CheckSuite(const CheckOptions& options, const GoldenSuite& suite) {
+  const CheckSettings settings = {*options.out, *options.is_strict, *options.keeps_all};
+  const JobSettings jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
   const GithubOutput github(*options.json);
   std::vector<CaseVerdict> verdicts;
   CheckInProcesses(suite, jobs, [&](const CaseVerdict& verdict) {
@@ -112,6 +142,21 @@ int CheckAll(const CheckOptions& options) {
   if (!*options.json) PrintSummary(counts, options);
   github.End(verdicts, *options.out);
   return counts.ExitCode();
+}
+
+int CheckAll(const CheckOptions& options) {
+  if (*options.answers) {
+    AnswerOrders(options.cases.Find(), {*options.out, *options.is_strict, *options.keeps_all},
+                 options.jobs.backend);
+    return 0;
+  }
+  RemoveOldResults(options);
+  try {
+    return CheckSuite(options, options.cases.Find());
+  } catch (const std::exception& error) {
+    ReportFailure(options, error.what());
+    throw;
+  }
 }
 
 }  // namespace

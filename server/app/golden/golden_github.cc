@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/system/utf8.h"
 #include "server/app/golden/golden_report_text.h"
@@ -44,6 +45,16 @@ std::string CommandProperty(const std::string& text) {
   return Replaced(Replaced(CommandText(text), ':', "%3A"), ',', "%2C");
 }
 
+// GitHub looks for it in the checkout.
+std::string FileInCheckout(const std::filesystem::path& file) {
+  const char* const checkout = std::getenv("GITHUB_WORKSPACE");
+  if (checkout == nullptr || *checkout == '\0') return file.string();
+  const auto relative = std::filesystem::absolute(file).lexically_normal().lexically_relative(
+      std::filesystem::path(checkout).lexically_normal());
+  const bool is_inside = !relative.empty() && *relative.begin() != "..";
+  return is_inside ? relative.string() : file.string();
+}
+
 std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& out) {
   std::vector<std::string> lines;
   for (const std::string& line : Explain(verdict)) {
@@ -55,7 +66,7 @@ std::string Annotation(const CaseVerdict& verdict, const std::filesystem::path& 
                                             ShellWord(out.string()), ShellWord(verdict.name))));
   }
   return fmt::format(
-      "::error file={},line={},title={}::{}\n", CommandProperty(verdict.file.string()),
+      "::error file={},line={},title={}::{}\n", CommandProperty(FileInCheckout(verdict.file)),
       verdict.line,
       CommandProperty(fmt::format("golden {}: {}", verdict.name, Name(verdict.outcome))),
       fmt::join(lines, "%0A"));
@@ -118,9 +129,8 @@ std::string ToAnnotations(const std::vector<CaseVerdict>& verdicts,
   if (failures.size() > room) {
     --room;
     text += fmt::format(
-        "::error title=golden::{} of them are shown here; {}/report.html shows all. "
-        "{}\n",
-        room, CommandText(out.string()), CommandText(Headline(CountsOf(verdicts))));
+        "::error title=golden::{}. The worst {} are shown here; {}/report.html shows all\n",
+        CommandText(Headline(CountsOf(verdicts))), room, CommandText(out.string()));
   }
   for (std::size_t i = 0; i < failures.size() && i < room; ++i) {
     text += Annotation(*failures[i], out);

@@ -11,6 +11,7 @@
 #include "core/picture_limits.h"
 #include "core/system/json_text.h"
 #include "core/system/sha256.h"
+#include "core/system/starts_with.h"
 #include "render/font.h"
 #include "render/image/new_file.h"
 
@@ -89,11 +90,21 @@ AcceptedCase AcceptedFrom(const json& json) {
 GoldenLock ReadLock(const fs::path& path, std::string* pictures) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
+  std::string text;
   try {
-    return ParseLock(ReadSmallFile(path), pictures);
+    text = ReadSmallFile(path);
+    return ParseLock(text, pictures);
   } catch (const std::exception& error) {
+    const bool is_merged =
+        text.find("\n<<<<<<<") != std::string::npos || StartsWith(text, "<<<<<<<");
+    if (!is_merged) {
+      throw std::runtime_error(
+          fmt::format("{}: {}; restore it from version control", path.string(), error.what()));
+    }
     throw std::runtime_error(
-        fmt::format("{}: {}; restore it from version control", path.string(), error.what()));
+        path.string() +
+        ": has the marks of a merge conflict; take one side whole (git checkout --ours or "
+        "--theirs), then run `kinescope golden check` and accept what is to change");
   }
 }
 

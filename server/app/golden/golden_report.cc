@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -175,9 +174,11 @@ class ReportWriter {
   void AddCase(const CaseVerdict& verdict, int number) {
     html_ += fmt::format(
         "<section class=\"case {0}\" id=\"case{1}\" data-number=\"{1}\" data-name=\"{2}\" "
-        "tabindex=\"-1\" aria-labelledby=\"name{1}\">\n<div class=\"head\"><span class=\"number\">"
+        "data-shape=\"{4}\" tabindex=\"-1\" aria-labelledby=\"name{1}\">\n<div "
+        "class=\"head\"><span class=\"number\">"
         "{1}</span><h2 id=\"name{1}\">{2}</h2><code>{3}</code>",
-        ToneOf(verdict), number, EscapeHtml(verdict.name), EscapeHtml(verdict.file.string()));
+        ToneOf(verdict), number, EscapeHtml(verdict.name), EscapeHtml(verdict.file.string()),
+        ShapeOf(verdict));
     if (verdict.now) AddDecisions();
     if (!verdict.why.empty()) {
       html_ += fmt::format("<p class=\"why\">It checks: {}</p>", EscapeHtml(verdict.why));
@@ -188,6 +189,12 @@ class ReportWriter {
     if (verdict.outcome == Outcome::kDiffers) AddFindings(verdict);
     AddCommands(verdict);
     html_ += "</section>\n";
+  }
+
+  // Width by height, of which the style makes what fits into a window; "": there is no picture.
+  static std::string ShapeOf(const CaseVerdict& verdict) {
+    if (!verdict.now || verdict.now->height < 1) return "";
+    return fmt::format("{:.3f}", static_cast<double>(verdict.now->width) / verdict.now->height);
   }
 
   void AddDecisions() {
@@ -265,9 +272,7 @@ class ReportWriter {
       }
       html_ += "</div>\n";
     }
-    html_ +=
-        fmt::format("<div class=\"pictures\" style=\"--shape: {:.3f}\">",
-                    static_cast<double>(verdict.now->width) / std::max(1, verdict.now->height));
+    html_ += "<div class=\"pictures\">";
     AddFigure("Accepted", before, verdict);
     AddFigure("This run", after, verdict);
     AddFigure("Difference", difference, verdict);

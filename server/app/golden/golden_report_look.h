@@ -65,14 +65,14 @@ ul.words .pixels::before, ul.words .structure::before, ul.words .light::before {
 .cause { border-left: 3px solid var(--bad); padding: 2px 0 2px 10px; font-size: 13px; } .cause.other { border-color: #d08a00; background: var(--warn-soft); }
 .layers { margin-top: 8px; } .layers .fails th { color: var(--bad); }
 .views { display: flex; flex-wrap: wrap; gap: 6px; margin: 12px 0 6px; }
-.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 10px; max-width: max(600px, calc(1.5 * var(--shape, 1.78) * (100vh - 478px) + 20px)); }
+.pictures { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 10px; max-width: max(600px, calc(1.5 * var(--shape, 1.778) * (100vh - 478px) + 20px)); }
 figure { margin: 0; min-width: 0; } figcaption { font-size: 12px; color: var(--quiet); margin-bottom: 3px; } figcaption b { color: var(--ink); }
 svg.shot { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; background: #fff; }
 svg.near { margin-top: 6px; } svg.near * { image-rendering: pixelated; } svg.shot rect { fill: none; stroke: #1d5aa0; stroke-width: 1.5; stroke-dasharray: 5 3; }
 svg.shot rect.mask { fill: rgb(133 80 0 / .2); stroke: #855000; stroke-dasharray: none; }
-.big { display: none; position: relative; max-width: min(1240px, calc((100vh - 120px) * 16 / 9)); } .big .over { position: absolute; inset: 0; }
+.big { display: none; position: relative; max-width: min(1240px, calc((100vh - 200px) * var(--shape, 1.778))); } .big .over { position: absolute; inset: 0; }
 .big .label { position: absolute; left: 10px; bottom: 10px; background: #1a212b; color: #fff; padding: 3px 10px; border-radius: 5px; font-weight: 600; }
-.slide { display: none; width: 100%; max-width: min(1240px, calc((100vh - 120px) * 16 / 9)); }
+.slide { display: none; width: 100%; max-width: min(1240px, calc((100vh - 200px) * var(--shape, 1.778))); }
 .case[data-view] .pictures { display: none; } .case[data-view] .big { display: block; } .case[data-view=slider] .slide { display: block; }
 .commands { display: flex; flex-wrap: wrap; gap: 6px 26px; margin-top: 12px; padding-top: 10px; border-top: 1px solid var(--line); font-size: 12.5px; color: var(--quiet); }
 dl { margin: 0; display: grid; gap: 3px; font-size: 12.5px; } dl div { display: grid; grid-template-columns: 120px minmax(0, 1fr); } dt { color: var(--quiet); } dd { margin: 0; overflow-wrap: anywhere; }
@@ -89,6 +89,9 @@ footer .keys { color: var(--quiet); font-size: 12px; }
 inline constexpr char kGoldenReportScript[] = R"(
 document.documentElement.classList.add('js');
 const cases = [...document.querySelectorAll('section.case')], decided = new Map();
+for (const one of cases) if (one.dataset.shape) one.style.setProperty('--shape', one.dataset.shape);
+// As a shell takes it: names come from files of anyone.
+const word = (text) => (/^[\w./][\w./-]*$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
 const { run, token } = document.body.dataset;  // with a token, a server carries out what is decided
 const decidable = document.querySelectorAll('.decide').length;
 let at = 0;
@@ -104,7 +107,7 @@ const setView = (one, view) => {
 };
 const collect = () => {
   const names = [...decided].filter(([, each]) => each === 'accept').map(([name]) => name);
-  document.getElementById('command').textContent = names.length === 0 ? '' : `kinescope golden accept ${run} ${names.join(' ')}`;
+  document.getElementById('command').textContent = names.length === 0 ? '' : `kinescope golden accept ${word(run)} ${names.map(word).join(' ')}`;
   document.getElementById('copy').disabled = names.length === 0;
 };
 const show = (one, verdict) => {
@@ -154,7 +157,7 @@ const ask = async (path, order) => {
     if (said.decisions) showAll(said.decisions);
     return said;
   } catch {
-    say(`The review does not answer. If it has ended, continue it with: kinescope golden review ${run}`, 'failed');
+    say(`The review does not answer. If it has ended, continue it with: kinescope golden review ${word(run)}`, 'failed');
     return null;
   } finally {
     isWaiting = false;

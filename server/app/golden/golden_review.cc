@@ -10,6 +10,7 @@
 
 #include "core/system/sha256.h"
 #include "render/image/new_file.h"
+#include "server/app/golden/accept_lock.h"
 
 namespace kinescope::app {
 namespace {
@@ -103,6 +104,7 @@ GoldenReview::Before GoldenReview::BeforeOf(const GoldenSuite& suite, const Case
 }
 
 void GoldenReview::Accept(const CaseVerdict& verdict) {
+  const AcceptLock lock(FolderFor(run_, settings_));
   GoldenSuite suite = SuiteFor(run_, settings_);
   if (IsAccepted(suite, verdict)) {  // by another command; there is nothing to restore
     accepted_.insert(verdict.name);
@@ -129,6 +131,7 @@ void GoldenReview::Decide(Decision decision, const CaseVerdict& verdict) {
 }
 
 void GoldenReview::Restore(const CaseVerdict& verdict) {
+  const AcceptLock lock(FolderFor(run_, settings_));
   GoldenSuite suite = SuiteFor(run_, settings_);
   const fs::path picture = AcceptedPicture(suite, verdict);
   if (!IsAccepted(suite, verdict)) {  // by git or another command

@@ -46,7 +46,7 @@ void CheckNames(const std::vector<CaseVerdict>& verdicts) {
 
 void ClearRun(const fs::path& out) {
   std::error_code error;
-  std::vector<fs::path> left = {FileOf(out)};
+  std::vector<fs::path> left = {FileOf(out), out / "report.html"};
   for (const auto& entry : fs::directory_iterator(out, error)) {
     const std::string name = entry.path().filename();
     for (const std::string ending : {".actual.png", ".diff.png", ".compare.png"}) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/system/errors.h"
@@ -27,10 +28,26 @@ std::optional<std::string> NameBefore(const std::string& ending, const fs::path&
   return name.substr(0, at);
 }
 
+// Its pictures have longer names, which file systems limit, and commands must be able to name it.
+void CheckCaseFile(const fs::path& yaml) {
+  constexpr std::size_t kMostName = 200;  // bytes
+  const std::string name = yaml.stem();
+  if (name.size() > kMostName) {
+    throw std::runtime_error(fmt::format("{}: its name has {} bytes; a case may have {}; rename it",
+                                         yaml.string(), name.size(), kMostName));
+  }
+  if (name.front() == '-') {
+    throw std::runtime_error(yaml.string() +
+                             ": a name that begins with '-' is taken for an option; rename it");
+  }
+  if (!fs::is_regular_file(yaml)) throw std::runtime_error(yaml.string() + ": is no file");
+}
+
 FoundCase Read(const fs::path& yaml) {
   FoundCase found;
   found.name = yaml.stem();
   try {
+    CheckCaseFile(yaml);
     found.read = LoadGoldenCase(yaml);
   } catch (const std::exception& error) {
     found.error = error.what();

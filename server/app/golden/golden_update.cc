@@ -59,7 +59,12 @@ class Updating {
       Print("{:<24} NOT ACCEPTED\n  {}\n", verdict.name, fault);
       return;
     }
-    Print("{:<24} {}\n", verdict.name, Accept(verdict));
+    try {
+      Print("{:<24} {}\n", verdict.name, Accept(verdict));
+    } catch (const std::exception& error) {
+      is_complete_ = false;
+      Print("{:<24} NOT ACCEPTED\n  {}\n", verdict.name, error.what());
+    }
   }
 
  private:
@@ -78,6 +83,7 @@ class Updating {
     const fs::path picture = suite_.PictureOf(verdict.name);
     const bool is_there = IsThere(picture, now.pixels_sha256);
     if (!is_there) {
+      fs::create_directories(picture.parent_path());  // git keeps no empty folders
       render::WritePng(picture, render::ReadPng(NewPictureOf(drawn_, verdict.name)));
     }
     now.file_sha256 = DigestOf(picture).sha256;

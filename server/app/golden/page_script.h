@@ -182,7 +182,9 @@ inline constexpr char kLookScript[] = R"js(async () => {
   function add(element, box, text, row) {
     if (isEmpty(box)) return;
     if (found.length >= MOST_ELEMENTS) throw new Error(`the page has more than ${MOST_ELEMENTS} things to see`);
-    const role = roleOf(element), words = line(text ?? ''), name = line(nameOf(element, words, row));
+    const role = roleOf(element), seen = line(text ?? ''), name = line(nameOf(element, seen, row));
+    const label = text !== null && element.hasAttribute('aria-label') ? labelOf(element) : '';
+    const words = label === '' || label === seen || label === name ? seen : line(`${seen} (${label})`);
     found.push({
       name: name === '' ? 'text' : name, role, text: text === null ? '' : line(words + stateOf(element)), is_changing: text === null,
       box: [tenth(box.left), tenth(box.top), tenth(box.right - box.left), tenth(box.bottom - box.top)],

@@ -210,6 +210,8 @@ class PictureCheck {
   void CheckDrawing() {
     if (ShowsNothing(drawing_.image)) {
       Add(FindingKind::kFault, "shows nothing: all pixels have one colour");
+    } else if (verdict_.now->facts.objects.empty() && verdict_.now->facts.texts.empty()) {
+      Add(FindingKind::kFault, "shows no object and no text; check camera and time");
     }
     for (std::string& wrong : render::FindSphereMismatches(drawing_.image, drawing_.spheres)) {
       Add(FindingKind::kFault, std::move(wrong));
@@ -367,7 +369,7 @@ class PictureCheck {
     for (const std::string& change : verdict_.changes.environment) {
       const std::string text = "weaker check, in another environment: " + change;
       if (settings_.is_strict) {
-        Add(FindingKind::kPicture, text);
+        Add(FindingKind::kPicture, text + " (--strict accepts none)");
       } else {
         verdict_.notes.push_back(text);
       }
