@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <string>
 #include <vector>
 
+#include "tests/process.h"
 #include "tests/system/golden_fixture.h"
+#include "tests/system/kinescope_path.h"
+#include "tests/system/kinescope_program.h"
 
 namespace kinescope::testing {
 namespace {
@@ -77,6 +81,20 @@ TEST_F(GoldenCheck, LeavesNoResultsOfAnEarlierRun) {
   EXPECT_THAT(ReadFile(summary), HasSubstr("merge conflict"));
   EXPECT_FALSE(fs::exists(case_ / "out/report.html"));
   EXPECT_FALSE(fs::exists(case_ / "out/run.json"));
+}
+
+// Ctrl-C after an hour.
+TEST_F(GoldenCheck, ReportsWhatWasComparedBeforeItWasInterrupted) {
+  WriteCase("z_long", "source: demo:lift\nseconds: 3600\nfps: 30\nevery: 600\nsize: 640x360\n");
+  const fs::path out = case_ / "out";
+  Process check(
+      {KinescopePath(), "golden", "check", case_, "--out", out, "--junit", out / "junit.xml"});
+  ASSERT_EQ(RestOfLine(check, "bend                     "), "same");
+  check.Signal(SIGINT);
+  EXPECT_EQ(check.WaitForEnd(), 2);
+  EXPECT_THAT(ReadFile(out / "junit.xml"),
+              AllOf(HasSubstr("name=\"bend\""), HasSubstr("interrupted after 1 of 2 cases")));
+  EXPECT_TRUE(fs::exists(out / "report.html"));
 }
 
 TEST_F(GoldenCheck, LeavesNoPicturesAmongTheCases) {

@@ -190,7 +190,7 @@ TEST_F(GoldenCheck, LeavesNoFileThatLooksLikeACaseUnread) {
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.out,
-              AllOf(HasSubstr("side.yml "), HasSubstr("is not read: a case ends in .yaml"),
+              AllOf(HasSubstr("side.yml "), HasSubstr("is not read: a case is called NAME.yaml"),
                     HasSubstr("Bend.yaml: only upper and lower case tell it from bend.yaml"),
                     HasSubstr("bend.yaml: only upper and lower case tell it from Bend.yaml")));
 }
@@ -544,9 +544,21 @@ TEST_F(GoldenMutation, OfAnArmBentByThreeDegreesMoreIsNamed) {
   EXPECT_EQ(Check({"--strict"}).exit_code, 0) << "a written pose stands still";
   ChangeInCase("right_elbow=90", "right_elbow=93");
   ExpectTold("right_wrist: moved by ");
+  ExpectTold("right_elbow: turned by 3.0°");
   ExpectTold("source: was pose:right_elbow=90, is pose:right_elbow=93");
   ExpectTold(
       "input source: pose:right_elbow=93 was not read before; pose:right_elbow=90 is not read");
+}
+
+// From where it is hardly seen, and without a sphere on it.
+TEST_F(GoldenMutation, OfAnArmIsNamedFromEverySide) {
+  for (const char* camera : {"front", "back", "left", "top"}) {
+    WriteCase("bend", std::string("source: pose:right_elbow=40\nhide: loads\ncamera: ") + camera +
+                          "\nsize: 320x180\n");
+    ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
+    ChangeInCase("right_elbow=40", "right_elbow=43");
+    ExpectTold("right_elbow: turned by 3.0°");
+  }
 }
 
 TEST_F(GoldenMutation, OfTheFloorIsNamed) {

@@ -12,15 +12,29 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::array<const char*, 15> kKindNames = {
-    "picture", "fault", "class", "camera",  "missing", "new",       "text",  "input",
-    "load",    "floor", "moved", "visible", "light",   "structure", "pixels"};
+constexpr std::array<const char*, 16> kKindNames = {
+    "picture", "fault", "class", "joint", "camera",  "missing", "new",       "text",
+    "input",   "load",  "floor", "moved", "visible", "light",   "structure", "pixels"};
 
 constexpr double kRatioLimit = 0.005;
 constexpr double kVisibleLimit = 0.15, kFewPixels = 12;  // of an object; below: a pixel's rounding
 constexpr double kMetresLimit = 0.002, kDegreesLimit = 0.05;
+constexpr double kJointDegreesLimit = 0.5;
 
 double Degrees(double radians) { return radians * 180 / M_PI; }
+
+// Of unit quaternions.
+double DegreesBetween(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  double cosine = 0, squared = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    cosine += a[i] * b[i];
+    squared += (a[i] - b[i]) * (a[i] - b[i]);
+  }
+  // By the chord, which is exact where the angle is small; of the two signs that both are the same
+  // rotation, the nearer one.
+  const double chord = std::sqrt(cosine >= 0 ? squared : std::max(0.0, 4 - squared));
+  return Degrees(4 * std::asin(std::min(1.0, chord / 2)));
+}
 
 std::string ClassText(LoadClass load_class) {
   return fmt::format("{} ({})", Name(load_class), render::ColorName(load_class));
@@ -76,19 +90,25 @@ void CompareLoads(const ObjectFact& expected, const ObjectFact& actual, Findings
   }
 }
 
+// `where`: in front of what is there, or through it.
+void CompareShare(const std::string& object, const char* where, std::int64_t expected,
+                  std::int64_t actual, Findings& findings) {
+  const auto before = static_cast<double>(expected), now = static_cast<double>(actual);
+  const double limit = std::max(kFewPixels, kVisibleLimit * std::max(before, now));
+  if (std::abs(now - before) <= limit) return;
+  findings.Add(FindingKind::kVisible, object,
+               fmt::format("expected {} px {}, found {}", expected, where, actual),
+               std::to_string(expected), std::to_string(actual), now - before);
+}
+
 void CompareSight(const ObjectFact& expected, const ObjectFact& actual, Findings& findings) {
   const double moved = std::hypot(expected.x_px - actual.x_px, expected.y_px - actual.y_px);
   if (moved > findings.place_limit_px) {
     findings.Add(FindingKind::kMoved, expected.name, fmt::format("moved by {:.1f} px", moved),
                  PlaceText(expected), PlaceText(actual), moved);
   }
-  const double before = static_cast<double>(expected.pixels),
-               now = static_cast<double>(actual.pixels);
-  const double limit = std::max(kFewPixels, kVisibleLimit * std::max(before, now));
-  if (std::abs(now - before) <= limit) return;
-  findings.Add(FindingKind::kVisible, expected.name,
-               fmt::format("expected {} px in front, found {}", expected.pixels, actual.pixels),
-               std::to_string(expected.pixels), std::to_string(actual.pixels), now - before);
+  CompareShare(expected.name, "in front", expected.pixels, actual.pixels, findings);
+  CompareShare(expected.name, "shining through", expected.through, actual.through, findings);
 }
 
 void CompareObjects(const PictureFacts& expected, const PictureFacts& actual, Findings& findings) {
@@ -112,6 +132,24 @@ void CompareObjects(const PictureFacts& expected, const PictureFacts& actual, Fi
     const std::string shown = object.load_class ? ", " + ClassText(*object.load_class) : "";
     findings.Add(FindingKind::kNew, object.name, "is new, at " + PlaceText(object) + shown, "",
                  PlaceText(object));
+  }
+}
+
+void CompareJoints(const PictureFacts& expected, const PictureFacts& actual, Findings& findings) {
+  std::map<std::string, const JointFact*> now;
+  for (const JointFact& joint : actual.joints) now[joint.name] = &joint;
+  for (const JointFact& joint : expected.joints) {
+    const auto match = now.find(joint.name);
+    if (match == now.end()) continue;  // its person is missing, which is told
+    const double turned = DegreesBetween(joint.parent_from_child, match->second->parent_from_child);
+    if (turned <= kJointDegreesLimit) continue;
+    const auto seen =
+        std::find_if(actual.objects.begin(), actual.objects.end(),
+                     [&](const ObjectFact& object) { return object.name == joint.name; });
+    findings.At(std::nullopt, std::nullopt);
+    if (seen != actual.objects.end()) findings.At(seen->x_px, seen->y_px);
+    findings.Add(FindingKind::kJoint, joint.name, fmt::format("turned by {:.1f}°", turned), "", "",
+                 turned);
   }
 }
 
@@ -258,6 +296,9 @@ std::string Many(const std::vector<const GoldenFinding*>& findings) {
       return worst.amount == 0 ? fmt::format("{} loads are now {}", count, worst.actual)
                                : fmt::format("{} load ratios changed by up to {:.3f} ({})", count,
                                              std::abs(worst.amount), worst.object);
+    case FindingKind::kJoint:
+      return fmt::format("{} joints turned by up to {:.1f}° ({})", count, worst.amount,
+                         worst.object);
     case FindingKind::kMoved:
       return fmt::format("{} objects moved by up to {:.1f} px ({})", count, worst.amount,
                          worst.object);
@@ -271,6 +312,7 @@ std::string Many(const std::vector<const GoldenFinding*>& findings) {
 bool CanBeToldTogether(FindingKind kind) {
   switch (kind) {
     case FindingKind::kClass:
+    case FindingKind::kJoint:
     case FindingKind::kMissing:
     case FindingKind::kNew:
     case FindingKind::kLoad:
@@ -330,6 +372,7 @@ std::vector<GoldenFinding> Compare(const PictureFacts& expected, const PictureFa
                                    double place_limit_px) {
   Findings findings(place_limit_px);
   CompareObjects(expected, actual, findings);
+  CompareJoints(expected, actual, findings);
   CompareTexts(expected, actual, findings);
   findings.At(std::nullopt, std::nullopt);
   if (expected.has_floor != actual.has_floor) {

@@ -14,6 +14,7 @@ enum class FindingKind {
   kPicture,  // the accepted picture is not the one of golden.lock, or of another size
   kFault,    // the new picture contradicts what it was drawn from, or shows nothing
   kClass,    // of a load
+  kJoint,    // is bent further or less; may move the camera
   kCamera,   // moves everything else
   kMissing,
   kNew,

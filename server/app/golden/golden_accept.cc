@@ -92,9 +92,11 @@ class Accepting {
     }
   }
 
-  // As the others of the suite have it.
+  // As it was accepted before, or as the others of the suite have it.
   void CheckEnvironment(const CaseVerdict& drawn) const {
     if (settings_.takes_other_environment) return;
+    const AcceptedCase* const own = suite_.AcceptedOf(drawn.name);
+    if (own != nullptr && own->environment == drawn.now->environment) return;
     for (const auto& [name, accepted] : suite_.lock) {
       const GoldenChanges changes = ChangesBetween(accepted, *drawn.now);
       const bool is_alike = accepted.environment.count("browser") ==

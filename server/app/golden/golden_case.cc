@@ -133,6 +133,8 @@ void AddFacts(const RenderRequest& request, render::Renderer& renderer, GoldenDr
   PictureFacts& facts = drawing.facts;
   facts.objects = ObjectFactsOf(contents, drawing.spheres);
   facts.texts = TextFactsOf(contents);
+  if (spec.look.Shows(render::ScenePart::kBody))
+    facts.joints = JointFactsOf(JointTurnsOf(request.state));
   facts.has_floor = spec.look.floor;
   if (facts.has_floor) facts.floor_z_m = request.state.floor_z;
   if (spec.panes.empty()) facts.cameras.push_back({"", request.camera});

@@ -48,7 +48,7 @@ int ListAll(const CaseListOptions& options) {
           found.read ? "" : "NOT READABLE: ", why);
   }
   for (const auto& file : suite.unread) {
-    if (!*options.json) Print("{:<24} is not read: a case ends in .yaml\n", file.string());
+    if (!*options.json) Print("{:<24} is not read: a case is called NAME.yaml\n", file.string());
   }
   for (const auto& orphan : suite.orphans) {
     if (*options.json) continue;

@@ -149,7 +149,7 @@ std::vector<CaseVerdict> VerdictsOfNoCase(const GoldenSuite& suite) {
   std::vector<CaseVerdict> verdicts;
   for (const fs::path& file : suite.unread) {
     verdicts.push_back(
-        OfNoCase(file, suite.folder / file, "is not read: a case ends in .yaml; rename it"));
+        OfNoCase(file, suite.folder / file, "is not read: a case is called NAME.yaml; rename it"));
   }
   for (const fs::path& orphan : suite.orphans) {
     verdicts.push_back(

@@ -1,7 +1,9 @@
 // `kinescope golden check`: have the pictures that people see changed, and what in them?
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -108,55 +110,71 @@ void RemoveOldResults(const CheckOptions& options) {
   }
 }
 
-// CI servers show why nothing was compared.
-void ReportFailure(const CheckOptions& options, const std::string& reason) {
+// Stands for what could not be compared, where CI servers show it.
+CaseVerdict FailureOf(const CheckOptions& options, const std::string& reason) {
   CaseVerdict verdict;
   verdict.name = "golden check";
   verdict.file = *options.cases.folder;
   verdict.outcome = Outcome::kNotCompared;
   verdict.reason = reason;
-  if (!options.junit->empty()) {
-    render::WriteNewFile(*options.junit, ToJunit({verdict}, *options.cases.folder, *options.out));
-  }
-  if (!options.summary->empty()) {
-    render::WriteNewFile(*options.summary, ToMarkdown({verdict}, *options.out));
-  }
-  GithubOutput(*options.json).End({verdict}, *options.out);
+  return verdict;
 }
 
-int CheckSuite(const CheckOptions& options, const GoldenSuite& suite) {
-  const CheckSettings settings = {*options.out, *options.is_strict, *options.keeps_all};
-  const JobSettings jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
+void ReportFailure(const CheckOptions& options, const std::string& reason) {
+  const std::vector<CaseVerdict> verdicts = {FailureOf(options, reason)};
+  if (!options.junit->empty()) {
+    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, *options.out));
+  }
+  if (!options.summary->empty()) {
+    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, *options.out));
+  }
+  GithubOutput(*options.json).End(verdicts, *options.out);
+}
+
+int CheckSuite(const CheckOptions& options, const GoldenSuite& suite, const JobSettings& jobs) {
   const GithubOutput github(*options.json);
   std::vector<CaseVerdict> verdicts;
-  CheckInProcesses(suite, jobs, [&](const CaseVerdict& verdict) {
-    verdicts.push_back(verdict);
-    if (*options.json) {
-      Print("{}\n", JsonText(ToJson(verdict, *options.out)));
-    } else {
-      PrintVerdict(verdict);
-    }
-  });
+  std::exception_ptr failure;  // what was compared before it is still to be seen
+  try {
+    CheckInProcesses(suite, jobs, [&](const CaseVerdict& verdict) {
+      verdicts.push_back(verdict);
+      if (*options.json) {
+        Print("{}\n", JsonText(ToJson(verdict, *options.out)));
+      } else {
+        PrintVerdict(verdict);
+      }
+      std::fflush(stdout);  // a log shows it now
+    });
+  } catch (const std::exception& error) {
+    failure = std::current_exception();
+    verdicts.push_back(FailureOf(options, error.what()));
+  }
   const OutcomeCounts counts = CountsOf(verdicts);
   WriteResults(options, suite, verdicts);
-  if (!*options.json) PrintSummary(counts, options);
+  const bool is_empty = failure && verdicts.size() == 1;
+  if (!*options.json && !is_empty) PrintSummary(counts, options);
   github.End(verdicts, *options.out);
+  if (failure) std::rethrow_exception(failure);
   return counts.ExitCode();
 }
 
 int CheckAll(const CheckOptions& options) {
+  const CheckSettings settings = {*options.out, *options.is_strict, *options.keeps_all};
   if (*options.answers) {
-    AnswerOrders(options.cases.Find(), {*options.out, *options.is_strict, *options.keeps_all},
-                 options.jobs.backend);
+    AnswerOrders(options.cases.Find(), settings, options.jobs.backend);
     return 0;
   }
   RemoveOldResults(options);
+  GoldenSuite suite;
+  JobSettings jobs;
   try {
-    return CheckSuite(options, options.cases.Find());
+    suite = options.cases.Find();
+    jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
   } catch (const std::exception& error) {
     ReportFailure(options, error.what());
     throw;
   }
+  return CheckSuite(options, suite, jobs);
 }
 
 }  // namespace

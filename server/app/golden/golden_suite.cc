@@ -112,7 +112,9 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (const auto name = NameBefore(kCase, entry.path())) known.insert(*name);
-    if (NameBefore(kAlmostCase, entry.path())) unread.push_back(entry.path().filename());
+    const bool is_nameless = entry.path().filename() == kCase;
+    if (is_nameless || NameBefore(kAlmostCase, entry.path()))
+      unread.push_back(entry.path().filename());
     if (NameBefore(kPicture, entry.path()) || NameBefore(kObjects, entry.path())) {
       accepted.push_back(entry.path().filename());
     }

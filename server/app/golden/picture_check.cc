@@ -196,8 +196,8 @@ class PictureCheck {
   }
 
   void AddObjectLayer(const AcceptedCase& accepted, std::size_t changed) {
-    const std::size_t all =
-        accepted.facts.objects.size() + accepted.facts.texts.size() + accepted.facts.cameras.size();
+    const std::size_t all = accepted.facts.objects.size() + accepted.facts.joints.size() +
+                            accepted.facts.texts.size() + accepted.facts.cameras.size();
     verdict_.layers.push_back({"objects",
                                changed == 0
                                    ? fmt::format("all {} the same", all)

@@ -76,6 +76,29 @@ std::string Lines(const char* name, const std::vector<Fact>& facts) {
   return lines + (facts.empty() ? "]" : "\n ]");
 }
 
+// By joint: w, x, y, z.
+Json TurnsOf(const std::vector<JointFact>& joints) {
+  Json turns = Json::object();
+  for (const JointFact& joint : joints) {
+    for (const double part : joint.parent_from_child) {
+      turns[joint.name].push_back(Rounded(part, 1e4));
+    }
+  }
+  return turns;
+}
+
+JointFact JointFrom(const std::string& name, const json& turn) {
+  JointFact joint = {name};
+  double squared = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    joint.parent_from_child[i] = turn.at(i).get<double>();
+    squared += joint.parent_from_child[i] * joint.parent_from_child[i];
+  }
+  if (std::abs(squared - 1) < 0.01) return joint;
+  throw json::other_error::create(
+      501, fmt::format("{}: expected a rotation, such as [1,0,0,0]", JsonText(turn)), &turn);
+}
+
 Eigen::Vector3d PlaceFrom(const json& place) {
   return {place.at(0).get<double>(), place.at(1).get<double>(), place.at(2).get<double>()};
 }
@@ -151,6 +174,14 @@ std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPl
   return names;
 }
 
+std::vector<JointFact> JointFactsOf(const std::vector<JointTurn>& turns) {
+  std::vector<JointFact> facts;
+  for (const JointTurn& turn : turns) {
+    facts.push_back({NameOf(turn.joint, turn.character), turn.parent_from_child});
+  }
+  return facts;
+}
+
 std::vector<TextFact> TextFactsOf(const render::PictureContents& contents) {
   std::vector<TextFact> facts;
   for (const render::PaintedText& text : contents.texts) {
@@ -170,8 +201,10 @@ std::int64_t CountFrom(const json& value, std::int64_t most) {
 std::string ToJson(const PictureFacts& facts) {
   const std::string level =
       facts.floor_z_m ? fmt::format(" \"floor_z_m\": {:.4f},", *facts.floor_z_m) : "";
-  return fmt::format("\"floor\": {},{}\n {},\n {},\n {}", facts.has_floor, level,
-                     Lines("cameras", facts.cameras), Lines("objects", facts.objects),
+  const std::string joints =
+      facts.joints.empty() ? "" : " \"joints\": " + JsonText(TurnsOf(facts.joints)) + ",\n";
+  return fmt::format("\"floor\": {},{}\n {},\n {},\n{} {}", facts.has_floor, level,
+                     Lines("cameras", facts.cameras), Lines("objects", facts.objects), joints,
                      Lines("texts", facts.texts));
 }
 
@@ -181,6 +214,11 @@ PictureFacts FactsFrom(const json& json) {
   if (json.contains("floor_z_m")) facts.floor_z_m = json.at("floor_z_m").get<double>();
   for (const auto& line : json.at("cameras")) facts.cameras.push_back(CameraFrom(line));
   for (const auto& line : json.at("objects")) facts.objects.push_back(ObjectFrom(line));
+  if (json.contains("joints")) {
+    for (const auto& [name, turn] : json.at("joints").items()) {
+      facts.joints.push_back(JointFrom(name, turn));
+    }
+  }
   for (const auto& line : json.at("texts")) {
     facts.texts.push_back({line.at("part"), line.at("text"), line.at("x"), line.at("y")});
   }

@@ -2,6 +2,7 @@
 /// compared before any pixel. Pure functions; any thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "render/camera/spheres.h"
 #include "render/contents.h"
 #include "render/image/tile.h"
+#include "server/picture/joint_turns.h"
 
 namespace kinescope::app {
 
@@ -36,8 +38,15 @@ struct CameraFact {
   render::Camera camera;
 };
 
+/// How far a joint of a person is bent, whatever of it is seen.
+struct JointFact {
+  std::string name;  // "right_elbow", "right_elbow of person 2"
+  std::array<double, 4> parent_from_child = {1, 0, 0, 0};  // see JointTurn
+};
+
 struct PictureFacts {
   std::vector<ObjectFact> objects;
+  std::vector<JointFact> joints;  // none: of a page, or not recorded yet
   std::vector<TextFact> texts;
   std::vector<CameraFact> cameras;
   bool has_floor = true;
@@ -48,6 +57,7 @@ struct PictureFacts {
 std::vector<ObjectFact> ObjectFactsOf(const render::PictureContents& contents,
                                       const std::vector<render::SphereInPicture>& loads);
 std::vector<TextFact> TextFactsOf(const render::PictureContents& contents);
+std::vector<JointFact> JointFactsOf(const std::vector<JointTurn>& turns);
 
 /// Around which pixels an object of the picture is seen, px.
 struct ObjectPlace {
@@ -61,8 +71,8 @@ std::vector<ObjectPlace> ObjectPlacesOf(const render::PictureContents& contents)
 /// three at most.
 std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPlace> places);
 
-/// One line per object, text and camera, so that a change is readable beside the change of a
-/// program. Rounded to 0.1 px, 0.001 of a ratio, 0.1 mm.
+/// One line per object, text and camera, and one for all joints, so that a change is readable
+/// beside the change of a program. Rounded to 0.1 px, 0.001 of a ratio, 0.1 mm, 0.02°.
 std::string ToJson(const PictureFacts& facts);
 
 /// A whole number from 0 to `most`. @throws nlohmann::json::exception if it is none.

@@ -62,7 +62,7 @@ TEST(GithubOutput, AnnotatesTheWorstAndSaysThatThereAreMore) {
   const std::string annotations = ToAnnotations(verdicts, "out dir");
   EXPECT_EQ(Count(annotations, "::error "), 10u);
   EXPECT_THAT(annotations,
-              AllOf(HasSubstr("9 of them are shown here; out dir/report.html shows all"),
+              AllOf(HasSubstr("The worst 9 are shown here; out dir/report.html shows all"),
                     HasSubstr("::error file=golden/z_class.yaml,line=3,title=golden z_class"),
                     HasSubstr("Accept: kinescope golden accept 'out dir' z_class")));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/palette.h"
@@ -79,6 +80,42 @@ TEST(Findings, SayWhenSomethingIsCovered) {
   PictureFacts now = Facts();
   now.objects[1].pixels = 100;
   EXPECT_THAT(Words(now), ElementsAre("centre of pressure: expected 300 px in front, found 100"));
+}
+
+TEST(Findings, SayWhenLessShinesThrough) {
+  PictureFacts now = Facts(), before = Facts();
+  before.objects[1].through = 127;
+  const auto findings = Compare(before, now);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].text, "centre of pressure: expected 127 px shining through, found 0");
+}
+
+// From any side, and also where nothing of it is drawn.
+TEST(Findings, NameTheJointThatIsBentFurtherBeforeTheCameraThatItMoves) {
+  const auto bent = [](double degrees) -> std::array<double, 4> {
+    const double half = degrees * M_PI / 360;
+    return {std::cos(half), 0, std::sin(half), 0};
+  };
+  PictureFacts before = Facts();
+  before.joints = {{"right_elbow", bent(40)}, {"left_elbow", bent(40)}};
+  PictureFacts now = before;
+  now.joints[0].parent_from_child = bent(43);
+  now.joints[1].parent_from_child = bent(40.4);
+  now.cameras[0].camera.target.y() += 0.01;
+  const auto findings = Compare(before, now);
+  ASSERT_GE(findings.size(), 2u);
+  EXPECT_EQ(findings[0].text, "right_elbow: turned by 3.0°");
+  EXPECT_EQ(findings[0].x_px, 100) << "where the load of the joint is seen";
+  EXPECT_EQ(findings[1].kind, FindingKind::kCamera);
+  const auto written = FactsFrom(nlohmann::json::parse("{" + ToJson(now) + "}"));
+  ASSERT_EQ(written.joints.size(), 2u);
+  EXPECT_EQ(written.joints[1].name, "right_elbow");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(written.joints[1].parent_from_child[i], bent(43)[i], 1e-4);
+  }
+  for (const GoldenFinding& each : Compare(Facts(), now)) {
+    EXPECT_EQ(each.kind, FindingKind::kCamera) << "an older lock has no joints";
+  }
 }
 
 TEST(Findings, HaveTextsByTheirPart) {
