@@ -176,6 +176,7 @@ std::vector<std::string> ObjectsIn(const render::Tile& box, std::vector<ObjectPl
 
 std::vector<JointFact> JointFactsOf(const std::vector<JointTurn>& turns) {
   std::vector<JointFact> facts;
+  facts.reserve(turns.size());
   for (const JointTurn& turn : turns) {
     facts.push_back({NameOf(turn.joint, turn.character), turn.parent_from_child});
   }
