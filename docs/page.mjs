@@ -17,7 +17,7 @@ try {
   await visit.page.waitForFunction(() => document.getElementById('latency-p95').textContent !== '');
   await straightening(url);
   server.kill('SIGSTOP');  // view and list then show the same sample
-  await visit.page.waitForTimeout(400);  // the list is updated every 150 ms
+  await visit.page.waitForTimeout(250);  // the list is updated every 150 ms
   const png = await visit.page.screenshot();
   const status = await visit.page.textContent('#status-word');
   if (status !== 'Live') throw new Error(`the status is ${status}: the machine is too busy; try again`);
