@@ -24,10 +24,16 @@ export class Surroundings {
     this.onChange = onChange;
   }
 
-  /** From the next load on.
-   *  @param {readonly string[]} parts */
+  /** @param {readonly string[]} parts */
   hide(parts) {
     this.#hidden = parts;
+    this.#hideParts();
+  }
+
+  #hideParts() {
+    for (const node of this.group.children[0]?.children[0]?.children ?? []) {
+      node.visible = !this.#hidden.includes(node.name.startsWith('robot') ? 'robots' : 'markers');
+    }
   }
 
   /** Shows those of the server as soon as they are loaded. Call it often.
@@ -73,10 +79,8 @@ export class Surroundings {
     if (revision === null) this.#asked.revision = null;
     if (scene !== null) {
       scene.traverse(prepare);
-      for (const node of scene.children[0]?.children ?? []) {
-        node.visible = !this.#hidden.includes(node.name.startsWith('robot') ? 'robots' : 'markers');
-      }
       this.group.add(scene);
+      this.#hideParts();
     }
     this.onChange();
   }

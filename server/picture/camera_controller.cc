@@ -219,15 +219,17 @@ render::Camera CameraController::Aim(const SceneState& state, double aspect,
   const render::GroundExtent& ground = follower_.Follow(state, secs, follow_secs_);
   if (!HoldsView(state)) return AimAt(ground, state, secs, aspect, beside);
   const render::Camera camera = Lensed(NamedAt(camera_, {}), secs);
-  const render::ViewPlace place = HeldPlace(state, camera, {aspect, free_area_}, secs);
+  const render::ViewHull needed = render::NeededHull(state, camera);
+  const render::ViewPlace place =
+      HeldPlace(!state.people.empty(), needed, camera, {aspect, free_area_}, secs);
   return render::MovedTo(place, camera, ground.middle);
 }
 
 // Before the first person comes, nothing is held.
-render::ViewPlace CameraController::HeldPlace(const SceneState& state, const render::Camera& camera,
+render::ViewPlace CameraController::HeldPlace(bool has_people, const render::ViewHull& needed,
+                                              const render::Camera& camera,
                                               const render::ViewShape& shape, double secs) {
-  const render::ViewHull needed = render::NeededHull(state, camera);
-  const bool has_met = !state.people.empty() || !held_view_.shown().is_empty();
+  const bool has_met = has_people || !held_view_.shown().is_empty();
   return has_met ? held_view_.Follow(needed, camera, shape, secs)
                  : render::PlaceFor(needed, camera, shape);
 }
@@ -252,9 +254,10 @@ render::Camera CameraController::AimHeld(const SceneState& state, double secs,
                                          const render::ViewShape& live,
                                          const std::optional<render::ViewShape>& shape) {
   const render::Camera camera = Lensed(NamedAt(camera_, {}), secs);
-  render::ViewPlace place = HeldPlace(state, camera, live, secs);
+  const render::ViewHull needed = render::NeededHull(state, camera);
+  render::ViewPlace place = HeldPlace(!state.people.empty(), needed, camera, live, secs);
   render::ViewHull shown = held_view_.shown();
-  shown.Add(render::NeededHull(state, camera));
+  shown.Add(needed);
   const render::GroundExtent people = render::GroundExtentOf(state);
   Eigen::Vector3d middle;
   if (follow_secs_) {

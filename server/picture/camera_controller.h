@@ -91,8 +91,9 @@ class CameraController {
   double SecsOf(const SceneState& state);
   bool HoldsView(const SceneState& state) const;
   render::Camera Lensed(render::Camera camera, double secs) const;
-  render::ViewPlace HeldPlace(const SceneState& state, const render::Camera& camera,
-                              const render::ViewShape& shape, double secs);
+  render::ViewPlace HeldPlace(bool has_people, const render::ViewHull& needed,
+                              const render::Camera& camera, const render::ViewShape& shape,
+                              double secs);
   render::Camera AimHeld(const SceneState& state, double secs, const render::ViewShape& live,
                          const std::optional<render::ViewShape>& shape);
   void FollowHeading(const SceneState& state, double secs);

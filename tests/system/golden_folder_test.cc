@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr char kSmall[] = "source: demo:lift\ntime: 1\nsize: 64x64\n";
 

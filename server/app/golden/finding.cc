@@ -90,7 +90,7 @@ void CompareLoads(const ObjectFact& expected, const ObjectFact& actual, Findings
   }
 }
 
-// `where`: in front of what is there, or through it.
+// `where`: "in front" or "shining through".
 void CompareShare(const std::string& object, const char* where, std::int64_t expected,
                   std::int64_t actual, Findings& findings) {
   const auto before = static_cast<double>(expected), now = static_cast<double>(actual);

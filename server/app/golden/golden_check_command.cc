@@ -78,6 +78,15 @@ class GithubOutput {
   std::string token_;
 };
 
+void WriteForServers(const CheckOptions& options, const std::vector<CaseVerdict>& verdicts) {
+  if (!options.junit->empty()) {
+    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, *options.out));
+  }
+  if (!options.summary->empty()) {
+    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, *options.out));
+  }
+}
+
 void WriteResults(const CheckOptions& options, const GoldenSuite& suite,
                   const std::vector<CaseVerdict>& verdicts) {
   const std::filesystem::path out = *options.out;
@@ -85,12 +94,7 @@ void WriteResults(const CheckOptions& options, const GoldenSuite& suite,
   render::WriteNewFile(
       out / "report.html",
       GoldenReport(verdicts, {*options.cases.folder, suite.folder / suite.pictures, out}));
-  if (!options.junit->empty()) {
-    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, out));
-  }
-  if (!options.summary->empty()) {
-    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, out));
-  }
+  WriteForServers(options, verdicts);
 }
 
 // What an earlier run has left would be taken for what this one found.
@@ -122,12 +126,7 @@ CaseVerdict FailureOf(const CheckOptions& options, const std::string& reason) {
 
 void ReportFailure(const CheckOptions& options, const std::string& reason) {
   const std::vector<CaseVerdict> verdicts = {FailureOf(options, reason)};
-  if (!options.junit->empty()) {
-    render::WriteNewFile(*options.junit, ToJunit(verdicts, *options.cases.folder, *options.out));
-  }
-  if (!options.summary->empty()) {
-    render::WriteNewFile(*options.summary, ToMarkdown(verdicts, *options.out));
-  }
+  WriteForServers(options, verdicts);
   GithubOutput(*options.json).End(verdicts, *options.out);
 }
 
