@@ -65,7 +65,7 @@ LIBRARIES = {
     r"meshoptimizer\.h": ("meshoptimizer", {"render/shape", "urdf/skin/make"}),
 }
 STANDARD = re.compile(r"[a-z_]+$|(stdlib|stdio|string|math|errno|time|signal|limits)\.h$")
-SYSTEM = re.compile(r"(sys|netinet|arpa|linux)/|(dlfcn|fcntl|malloc|netdb|poll|pwd|spawn|unistd|pthread)\.h$")
+SYSTEM = re.compile(r"(sys|netinet|arpa|linux)/|(dlfcn|fcntl|glob|malloc|netdb|poll|pwd|sched|spawn|unistd|pthread)\.h$")
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

@@ -5,13 +5,14 @@
 namespace kinescope {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
+volatile std::sig_atomic_t stop_signal = 0;
 
-volatile std::sig_atomic_t catches_hangup = 0;
+volatile std::sig_atomic_t catches_hangup = 0, ends_at_second = 1;
 
 // The next signal, of whatever kind, ends the process at once.
-void OnSignal(int) {
-  stop_requested = 1;
+void OnSignal(int signal) {
+  stop_signal = signal;
+  if (ends_at_second == 0) return;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (catches_hangup != 0) std::signal(SIGHUP, SIG_DFL);
@@ -31,6 +32,10 @@ void CatchStopSignals() {
   sigaction(SIGHUP, &action, nullptr);
 }
 
-bool StopRequested() { return stop_requested != 0; }
+bool StopRequested() { return stop_signal != 0; }
+
+int StopSignal() { return stop_signal; }
+
+void IgnoreFurtherStopSignals() { ends_at_second = 0; }
 
 }  // namespace kinescope

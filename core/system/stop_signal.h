@@ -8,4 +8,11 @@ namespace kinescope {
 void CatchStopSignals();
 [[nodiscard]] bool StopRequested();
 
+/// Which signal requested it; 0: none did.
+[[nodiscard]] int StopSignal();
+
+/// From now on, further signals end nothing: of a process whose parent decides how long it waits.
+/// Call it after CatchStopSignals().
+void IgnoreFurtherStopSignals();
+
 }  // namespace kinescope

@@ -11,6 +11,19 @@
 
 namespace kinescope::app {
 
+/// A file that a command writes.
+struct DeclaredOutput {
+  enum class Kind {
+    kFile,
+    kNumbered,  // one per picture; `path` has a placeholder for its number
+    kFolder,    // what is in it
+  };
+
+  std::string option;  // that names it
+  std::string path;
+  Kind kind = Kind::kFile;
+};
+
 struct Command {
   std::string name;
   std::string about;   // what it does, and examples
@@ -20,11 +33,23 @@ struct Command {
   /// rest.
   std::vector<std::string> positionals;
   std::set<std::string> required;
+  /// Options that name what it reads, besides files that values of options refer to.
+  std::vector<std::string> reads;
   /// Called with the options set. Returns the exit code: 0 success, 1 the check failed or nothing
   /// was found. @throws std::exception, whose text is shown; the exit code is then 2.
   std::function<int(options::OptionList& options)> run;
+  /// What `run` would write, for callers that must know before. @throws UsageError as `run` would.
+  std::function<std::vector<DeclaredOutput>()> outputs;
+  std::string failure;  // what exit code 1 means: "no load is known"
+  /// Instead of `run`, for a command that also takes options that are not its own: the words of the
+  /// command line that it does not know, in their order.
+  std::function<int(const std::vector<std::string>& words)> run_with_words;
   std::vector<Command> parts;  // subcommands of its own
 };
+
+/// To be called when all options are set, before the command is run.
+/// @throws UsageError: an option that is required is missing, or one has no effect.
+void CheckIsComplete(const Command& command);
 
 /// Reads the command line, then the file of --config, for options that the command line left open,
 /// and runs the command. @return the exit code. @throws UsageError naming what was wrong.

@@ -130,6 +130,7 @@ void Register(Command& command, CLI::App& parent, std::vector<Registered>& all) 
     }
   }
   const auto config = std::make_shared<std::string>();
+  if (command.run_with_words != nullptr) app.allow_extras();
   if (command.run != nullptr) {
     app.add_option("--config", *config, "YAML file of options, one `name: value` per line")
         ->type_name("");
@@ -193,6 +194,14 @@ std::vector<std::string> ArgumentsOf(int argc, char** argv) {
 
 }  // namespace
 
+void CheckIsComplete(const Command& command) {
+  for (const Option& option : command.options) {
+    if (option.channel != Channel::kDefault || command.required.count(option.name) == 0) continue;
+    throw UsageError(fmt::format("--{} is missing: {}", option.name, HelpOf(option)));
+  }
+  command.options.CheckEffects();
+}
+
 int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   CLI::App line(
       "Kinescope: shows and monitors a person in a motion-capture suit, without a display.");
@@ -241,12 +250,9 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   const Registered& chosen = *Chosen(all);
   Command& command = *chosen.command;
   if (!chosen.config->empty()) options::YamlOptions(*chosen.config).SetAll(command.options);
-  for (const Option& option : command.options) {
-    if (option.channel != Channel::kDefault || command.required.count(option.name) == 0) continue;
-    throw UsageError(fmt::format("--{} is missing: {}", option.name, HelpOf(option)));
-  }
-  command.options.CheckEffects();
+  CheckIsComplete(command);
   for (const std::string& warning : command.options.warnings()) spdlog::warn(warning);
+  if (command.run_with_words != nullptr) return command.run_with_words(chosen.app->remaining());
   return command.run(command.options);
 }
 

@@ -5,8 +5,8 @@ namespace kinescope::app {
 std::vector<Command> AllCommands() {
   std::vector<Command> commands;
   for (const auto make : {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, ConvertCommand,
-                          GoldenCommand, StreamCommand, RecordCommand, InspectCommand, StripCommand,
-                          UrdfCommand, RvizCommand, ProbeCommand}) {
+                          GoldenCommand, BatchCommand, JobsCommand, StreamCommand, RecordCommand,
+                          InspectCommand, StripCommand, UrdfCommand, RvizCommand, ProbeCommand}) {
     commands.push_back(make());
   }
   return commands;

@@ -1,17 +1,24 @@
 /// The subcommands.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "server/app/command.h"
 
 namespace kinescope::app {
 
-Command ServeCommand();    // source -> ROS, pictures, page
-Command BridgeCommand();   // source -> ROS only
-Command RenderCommand();   // source -> PNG or clips
+class DrawPools;
+
+Command ServeCommand();   // source -> ROS, pictures, page
+Command BridgeCommand();  // source -> ROS only
+Command RenderCommand();  // source -> PNG or clips
+/// With pools that outlive the command.
+Command RenderCommand(const std::shared_ptr<DrawPools>& pools);
 Command LoadsCommand();    // source -> CSV, JSON, plots, report
 Command ConvertCommand();  // source -> motion files
+Command BatchCommand();    // list of jobs -> what they make
+Command JobsCommand();     // recordings -> list of jobs
 Command GoldenCommand();   // check, accept, ... golden images
 Command StreamCommand();   // source -> MVN network stream
 Command RecordCommand();   // source -> capture file

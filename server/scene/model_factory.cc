@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/body/body_color.h"
+#include "server/scene/model_memory.h"
 
 namespace kinescope::app {
 
@@ -76,7 +77,7 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   if (settings_.mesh_cache && settings_.appearance.has_meshes()) NameMeshes(*model);
   model->urdf_xml = urdf::WriteUrdf(human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);
-  return model;
+  return SharedModel(std::move(model));
 }
 
 }  // namespace kinescope::app

@@ -186,10 +186,16 @@ class Conversion {
     for (const auto& file : files_) file->Finish();
   }
 
-  void PrintSummary() const {
+  std::vector<std::string> paths() const {
+    std::vector<std::string> all;
     for (const auto& file : files_) {
-      for (const std::string& path : file->paths()) Print("{}: written\n", path);
+      for (const std::string& path : file->paths()) all.push_back(path);
     }
+    return all;
+  }
+
+  void PrintSummary() const {
+    for (const std::string& path : paths()) Print("{}: written\n", path);
     Print("{}, {}, {:.2f} s{}\n", Counted(samples_, "sample"),
           Counted(people_.size(), "person", "people"), Secs(last_nanos_ - *begin_nanos_),
           rate_hz_ > 0 ? fmt::format(" at {:.6g} Hz", rate_hz_) : "");
@@ -290,11 +296,13 @@ class Conversion {
   std::int64_t last_nanos_ = 0;
 };
 
-void Convert(ConvertOptions& options) {
+// Returns the files that were written.
+std::vector<std::string> Convert(ConvertOptions& options) {
   CheckOutputs(options);
   Conversion conversion(options);
   conversion.Run();
   conversion.PrintSummary();
+  return conversion.paths();
 }
 
 }  // namespace
@@ -310,8 +318,18 @@ Command ConvertCommand() {
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source", "out"};
-  command.run = [values](options::OptionList&) {
-    Convert(*values);
+  command.reads = {"source"};
+  // Where a format has a file for each person, only the motion tells their names.
+  const auto written = std::make_shared<std::vector<std::string>>();
+  command.outputs = [values, written] {
+    std::vector<DeclaredOutput> outputs;
+    for (const std::string& path : written->empty() ? *values->out : *written) {
+      outputs.push_back({"out", path});
+    }
+    return outputs;
+  };
+  command.run = [values, written](options::OptionList&) {
+    *written = Convert(*values);
     return 0;
   };
   return command;

@@ -11,7 +11,7 @@
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
 #include "server/app/golden/page_browser.h"
-#include "server/app/golden/process_group.h"
+#include "server/app/process_group.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {

@@ -114,6 +114,13 @@ void RemoveOldResults(const CheckOptions& options) {
   }
 }
 
+std::vector<DeclaredOutput> OutputsOf(const CheckOptions& options) {
+  std::vector<DeclaredOutput> outputs = {{"out", *options.out, DeclaredOutput::Kind::kFolder}};
+  if (!options.junit->empty()) outputs.push_back({"junit", *options.junit});
+  if (!options.summary->empty()) outputs.push_back({"summary", *options.summary});
+  return outputs;
+}
+
 // Stands for what could not be compared, where CI servers show it.
 CaseVerdict FailureOf(const CheckOptions& options, const std::string& reason) {
   CaseVerdict verdict;
@@ -202,6 +209,9 @@ Command GoldenCheckCommand() {
       "Exit code: 0 all are the same, 1 a case differs or a picture belongs to no case, 2 a case "
       "could not be compared.\n"
       "In GitHub Actions, it writes annotations and the summary of the job by itself.";
+  check.reads = {"folder"};
+  check.outputs = [values] { return OutputsOf(*values); };
+  check.failure = "a picture is not the accepted one";
   check.run = [values](options::OptionList&) { return CheckAll(*values); };
   return check;
 }

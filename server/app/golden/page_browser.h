@@ -15,7 +15,7 @@
 
 #include "core/system/scratch_folder.h"
 #include "server/app/golden/page_messages.h"
-#include "server/app/golden/process_group.h"
+#include "server/app/process_group.h"
 
 namespace kinescope::app {
 

@@ -187,18 +187,26 @@ class Recording {
   std::map<int, LoadTrial> trials_;  // by character
 };
 
+std::vector<DeclaredOutput> OutputsOf(const LoadsOptions& options) {
+  using Kind = DeclaredOutput::Kind;
+  std::vector<DeclaredOutput> outputs;
+  const auto add = [&](const char* option, const std::string& path, Kind kind) {
+    if (!path.empty()) outputs.push_back({option, path, kind});
+  };
+  add("csv", *options.csv, Kind::kFile);
+  add("json", *options.json, Kind::kFile);
+  add("plots", *options.plots, Kind::kFolder);
+  add("report", *options.report, Kind::kFile);
+  return outputs;
+}
+
 void CheckOutputs(const LoadsOptions& options) {
-  const auto unless_stdout = [](const std::string& path) { return path == "-" ? "" : path; };
-  const std::pair<const char*, std::string> outputs[] = {{"csv", unless_stdout(*options.csv)},
-                                                         {"json", unless_stdout(*options.json)},
-                                                         {"report", *options.report},
-                                                         {"plots", *options.plots}};
   std::map<std::filesystem::path, std::string> taken;  // place: option as it was given
-  for (const auto& [name, path] : outputs) {
-    if (path.empty()) continue;
-    const std::string given = fmt::format("--{}={}", name, path);
-    CheckIsNotSource(*options.source, path, given);
-    const auto [other, is_new] = taken.insert({PlaceOfOutput(path), given});
+  for (const DeclaredOutput& output : OutputsOf(options)) {
+    if (output.path == "-") continue;
+    const std::string given = fmt::format("--{}={}", output.option, output.path);
+    CheckIsNotSource(*options.source, output.path, given);
+    const auto [other, is_new] = taken.insert({PlaceOfOutput(output.path), given});
     if (is_new) continue;
     throw UsageError(fmt::format("{} and {} write to the same file; give each output its own name",
                                  other->second, given));
@@ -295,6 +303,12 @@ Command LoadsCommand() {
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source"};
+  command.reads = {"source"};
+  command.outputs = [values] {
+    CheckArguments(*values);
+    return OutputsOf(*values);
+  };
+  command.failure = "no load is known";
   command.footer = "Exit code: 0 some loads are known, 1 none is, 2 error.";
   command.run = [values](options::OptionList& list) { return Loads(*values, list) ? 0 : 1; };
   return command;

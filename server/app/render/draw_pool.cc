@@ -12,7 +12,15 @@ namespace kinescope::app {
 // drawing on it.
 class DrawPool::ImagePool : public std::enable_shared_from_this<ImagePool> {
  public:
-  explicit ImagePool(std::size_t most) : left_(most) {}
+  explicit ImagePool(std::size_t most) : most_(most), left_(most) {}
+
+  /// Waits until none is out.
+  void SetMost(std::size_t most) {
+    std::unique_lock lock(mutex_);
+    returned_.wait(lock, [&] { return left_ == most_; });
+    if (most != most_) used_.clear();  // of pictures of another size
+    most_ = left_ = most;
+  }
 
   /// Waits until fewer than the most are out.
   void Reserve() {
@@ -48,7 +56,7 @@ class DrawPool::ImagePool : public std::enable_shared_from_this<ImagePool> {
 
   std::mutex mutex_;
   std::condition_variable returned_;
-  std::size_t left_;                                 // guarded by mutex_
+  std::size_t most_, left_;                          // guarded by mutex_
   std::vector<std::unique_ptr<DrawnPicture>> used_;  // guarded by mutex_
 };
 
@@ -76,6 +84,8 @@ DrawPool::~DrawPool() {
   changed_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
+
+void DrawPool::SetMostPictures(std::size_t most) { images_->SetMost(most); }
 
 FuturePicture DrawPool::Draw(RenderRequest request) {
   images_->Reserve();

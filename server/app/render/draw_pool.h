@@ -48,6 +48,9 @@ class DrawPool {
   /// may be any.
   [[nodiscard]] FuturePicture Draw(RenderRequest request);
 
+  /// As the constructor's. Waits until no picture is being rendered or held.
+  void SetMostPictures(std::size_t most);
+
   /// Of the renderers, which are all the same.
   const render::RendererInfo& info() const { return info_; }
 

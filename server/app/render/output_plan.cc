@@ -88,16 +88,6 @@ std::string AsName(const std::string& text) {
   return name;
 }
 
-std::string NameOfSource(const std::string& source) {
-  if (source == "-") return "stdin";
-  if (IsSubjectUrl(source)) return AsName(source);
-  fs::path stem = fs::path(source).filename();
-  for (const char* packed : {".gz", ".xz", ".zst", ".bz2", ".lz4"}) {
-    if (stem.extension() == packed) stem = stem.stem();
-  }
-  return AsName(stem.stem().string());
-}
-
 void CheckPlace(const std::string& path) {
   std::error_code ignored;
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
@@ -214,6 +204,18 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
 
 }  // namespace
 
+std::string NameOfSource(const std::string& source) {
+  if (source == "-") return "stdin";
+  if (IsSubjectUrl(source)) return AsName(source);
+  fs::path stem = fs::path(source).filename();
+  for (const char* packed : {".gz", ".xz", ".zst", ".bz2", ".lz4"}) {
+    if (stem.extension() == packed) stem = stem.stem();
+  }
+  return AsName(stem.stem().string());
+}
+
+std::string NameOfCamera(const std::string& camera) { return AsName(camera); }
+
 bool AreStills(const std::vector<std::string>& outs) {
   return std::all_of(outs.begin(), outs.end(), [](const std::string& out) {
     return fs::path(out).extension() == ".png" && FindNumbers(out).empty();
@@ -237,6 +239,13 @@ std::string PathOfPicture(const std::string& pattern, long k) {
          pattern.substr(place.begin + place.size);
 }
 
+std::string LayerPathOf(const RenderOptions& options, const Output& output) {
+  const auto& layer = options.moment.overlay_layer;
+  if (!layer) return "";
+  const bool is_svg = *layer == render::LayerFormat::kSvg;
+  return fs::path(output.path).replace_extension(is_svg ? "svg" : "pdf");
+}
+
 std::vector<SourcePlan> PlanOutputs(const RenderOptions& options) {
   std::vector<SourcePlan> plans;
   for (const std::string& source : *options.sources) {
@@ -244,7 +253,7 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options) {
     for (const std::string& out : *options.outs) {
       for (const CameraChoice& camera : *options.view.camera) {
         Output output{out, OutputKind::kStill, camera.text};
-        Replace(output.path, "{camera}", AsName(camera.text));
+        Replace(output.path, "{camera}", NameOfCamera(camera.text));
         Replace(output.path, "{source}", NameOfSource(source));
         output.kind = KindOf(output.path);
         CheckPlace(output.path);

@@ -35,6 +35,13 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 /// The path of picture `k`, from 0, of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
+/// What stands for a source and for a camera in the name of an output.
+std::string NameOfSource(const std::string& source);
+std::string NameOfCamera(const std::string& camera);
+
+/// The file of the overlays of a picture as vectors (--overlay_layer); "" without.
+std::string LayerPathOf(const RenderOptions& options, const Output& output);
+
 /// Whether all of them are single pictures, as far as their endings tell.
 bool AreStills(const std::vector<std::string>& outs);
 

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -22,14 +21,6 @@ render::VideoOptions PackingOf(const RunContext& run, const Output& output) {
   options.quality = static_cast<int>(*run.options.pack.quality);
   options.alpha = run.options.view.background->is_transparent;
   return options;
-}
-
-// The file of the overlays as vectors; "" without.
-std::string LayerPathOf(const RunContext& run, const Output& output) {
-  const auto& layer = run.options.moment.overlay_layer;
-  if (!layer) return "";
-  const bool is_svg = *layer == render::LayerFormat::kSvg;
-  return std::filesystem::path(output.path).replace_extension(is_svg ? "svg" : "pdf");
 }
 
 }  // namespace
@@ -70,7 +61,7 @@ std::unique_ptr<OutputSink> OutputWriter::MakeSink() const {
   const double px_per_m = spec.print.PixelsPerMetre(spec.width);
   switch (output_.kind) {
     case OutputKind::kStill:
-      return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_, output_), px_per_m);
+      return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_.options, output_), px_per_m);
     case OutputKind::kSequence:
       // Compressing a picture may take longer than drawing it.
       return MakePngSink(output_.path, run_.settings.jobs + 1, metadata, "", px_per_m);

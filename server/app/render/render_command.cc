@@ -10,7 +10,9 @@
 #include "core/system/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/print.h"
+#include "server/app/render/draw_pools.h"
 #include "server/app/render/output_plan.h"
+#include "server/app/render/provenance_files.h"
 #include "server/app/render/render_options.h"
 #include "server/app/render/render_run.h"
 #include "server/app/render/render_verify.h"
@@ -43,23 +45,45 @@ void PrintResult(const OutputResult& result, bool as_json) {
         kept > 0 ? fmt::format(", {} of them skipped (up to date)", kept) : "");
 }
 
-void Render(const RenderOptions& options) {
+// As Render() checks them before it makes a renderer.
+std::vector<SourcePlan> Plan(const RenderOptions& options) {
   if (options.sources->empty()) throw UsageError("source is missing: name what to render");
   if (options.sources->size() > 1 && options.loads.measured.wrenches.IsGiven()) {
     throw UsageError("--wrenches=" + *options.loads.measured.wrenches +
                      ": was measured during one recording; render its source alone");
   }
   if (options.outs->empty()) throw UsageError("--out is missing: name the file to write");
-  const std::vector<SourcePlan> plans = PlanOutputs(options);
+  std::vector<SourcePlan> plans = PlanOutputs(options);
+  ToTimeGrid(options.clip, false);  // refuses contradictions
+  return plans;
+}
+
+std::vector<DeclaredOutput> OutputsOf(const RenderOptions& options) {
+  using Kind = DeclaredOutput::Kind;
+  std::vector<DeclaredOutput> outputs;
+  if (!options.verify->empty()) return outputs;
+  for (const SourcePlan& plan : Plan(options)) {
+    for (const Output& output : plan.outputs) {
+      const bool is_numbered = output.kind == OutputKind::kSequence;
+      outputs.push_back({"out", output.path, is_numbered ? Kind::kNumbered : Kind::kFile});
+      const std::string layer = LayerPathOf(options, output);
+      if (!layer.empty()) outputs.push_back({"overlay_layer", layer});
+      if (!*options.no_sidecar) outputs.push_back({"out", SidecarOf(output.path)});
+    }
+  }
+  return outputs;
+}
+
+void Render(const RenderOptions& options, DrawPools& pools) {
+  const std::vector<SourcePlan> plans = Plan(options);
   const render::PictureSpec spec = ToPictureSpec(options.view);
-  ToTimeGrid(options.clip, false);  // refuses contradictions before a renderer is made
   RunSettings settings;
   settings.jobs = JobsFor(*options.jobs, spec);
   settings.force = *options.force;
   settings.sidecar = !*options.no_sidecar;
-  const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);
+  DrawPool& pool = pools.PoolFor(settings.jobs, spec, options.backend);
   for (const SourcePlan& plan : plans) {
-    for (const OutputResult& result : RenderSource(options, plan, settings, *pool)) {
+    for (const OutputResult& result : RenderSource(options, plan, settings, pool)) {
       PrintResult(result, *options.json);
     }
   }
@@ -67,7 +91,9 @@ void Render(const RenderOptions& options) {
 
 }  // namespace
 
-Command RenderCommand() {
+Command RenderCommand() { return RenderCommand(std::make_shared<DrawPools>()); }
+
+Command RenderCommand(const std::shared_ptr<DrawPools>& pools) {
   const auto values = std::make_shared<RenderOptions>();
   Command command;
   command.name = "render";
@@ -83,11 +109,14 @@ Command RenderCommand() {
       "fps", "on a single picture; name a clip or a sequence in --out",
       [values = values.get()] { return !values->outs->empty() && AreStills(*values->outs); });
   command.positionals = {"source"};
-  command.run = [values](options::OptionList&) {
+  command.reads = {"source", "verify"};
+  command.run = [values, pools](options::OptionList&) {
     if (!values->verify->empty()) return Verify(*values->verify, *values);
-    Render(*values);
+    Render(*values, *pools);
     return 0;
   };
+  command.outputs = [values] { return OutputsOf(*values); };
+  command.failure = "the file does not show what it says";
   return command;
 }
 

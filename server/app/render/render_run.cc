@@ -1,16 +1,13 @@
 #include "server/app/render/render_run.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -22,8 +19,6 @@
 #include "server/app/render/moments.h"
 #include "server/app/render/render_tasks.h"
 #include "server/app/render/resume_check.h"
-#include "server/picture/backend.h"
-#include "server/picture/cores.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 
@@ -308,33 +303,11 @@ class RenderRun {
   std::deque<OutputWriter> writers_;  // last: their threads use the other members
 };
 
-// Each renderer says once what is wrong with a mesh; all of them together, too.
-render::LogLine LogOnce() {
-  struct Said {
-    std::mutex mutex;
-    std::set<std::string> lines;  // guarded by mutex
-  };
-  return [said = std::make_shared<Said>()](const std::string& line) {
-    const std::lock_guard lock(said->mutex);
-    if (said->lines.insert(line).second) spdlog::warn("{}", line);
-  };
-}
-
 }  // namespace
 
 std::vector<OutputResult> RenderSource(const RenderOptions& options, const SourcePlan& plan,
                                        const RunSettings& settings, DrawPool& pool) {
   return RenderRun(options, plan, settings, pool).Run();
-}
-
-std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::PictureSpec& spec,
-                                       const BackendOptions& backend) {
-  render::UseFillingThreads(FillingThreads(CoresHere(), jobs));
-  const BackendChoice choice = ChooseBackend(backend);
-  if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
-  return std::make_unique<DrawPool>(
-      jobs, MostPictures(jobs, spec.width, spec.height),
-      [backend, choice, log = LogOnce()] { return StartRenderer(backend, choice, {}, log); });
 }
 
 }  // namespace kinescope::app

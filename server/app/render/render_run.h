@@ -3,7 +3,6 @@
 /// same time.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "server/app/render/draw_pool.h"
@@ -18,9 +17,5 @@ namespace kinescope::app {
 /// the name of an output. Finished pictures of a sequence stay.
 std::vector<OutputResult> RenderSource(const RenderOptions& options, const SourcePlan& plan,
                                        const RunSettings& settings, DrawPool& pool);
-
-/// A pool for pictures of that size. @throws RenderError, UsageError.
-std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::PictureSpec& spec,
-                                       const BackendOptions& backend);
 
 }  // namespace kinescope::app

@@ -18,6 +18,7 @@
 #include "render/image/compare.h"
 #include "render/image/png_file.h"
 #include "server/app/print.h"
+#include "server/app/render/draw_pools.h"
 #include "server/app/render/picture_comparison.h"
 #include "server/app/render/provenance.h"
 #include "server/app/render/provenance_comparison.h"
@@ -150,9 +151,10 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   const render::PictureSpec spec = ToPictureSpec(options.view);
   settings.jobs = JobsFor(*given.jobs, spec);
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
-  const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);
-  const auto results = RenderSource(options, plans.front(), settings, *pool);
-  const Provenance now(options, options.sources->front(), pool->info());
+  DrawPools pools;
+  DrawPool& pool = pools.PoolFor(settings.jobs, spec, options.backend);
+  const auto results = RenderSource(options, plans.front(), settings, pool);
+  const Provenance now(options, options.sources->front(), pool.info());
   NoteDifferences(then, now.Of(plans.front().outputs.front()), file);
 
   const bool is_clip = then.value("kind", "") == "clip";
@@ -160,7 +162,7 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   Verdict verdict;
   verdict.same_bytes = (is_clip || !is_numbered || is_one) && BytesOf(file) == BytesOf(drawn);
   if (!verdict.same_bytes) {
-    const bool same_renderer = then.value("renderer", "") == pool->info().renderer;
+    const bool same_renderer = then.value("renderer", "") == pool.info().renderer;
     const Tolerance rounding = {same_renderer ? 0 : render::kChannelTolerance, 0};
     verdict = ComparePictures(
         file, drawn, is_clip ? kClipTolerance : rounding,

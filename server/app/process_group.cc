@@ -1,4 +1,4 @@
-#include "server/app/golden/process_group.h"
+#include "server/app/process_group.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -115,10 +115,6 @@ int MillisUntil(GroupClock::time_point deadline) {
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, kLookEveryMillis));
 }
 
-void StopIfUserStops() {
-  if (StopRequested()) throw std::runtime_error("interrupted");
-}
-
 // Closes `stream` at its end.
 void ReadSomeOf(int& stream, std::string& to) {
   std::string buffer(kReadBytes, '\0');
@@ -132,7 +128,7 @@ void ReadSomeOf(int& stream, std::string& to) {
 
 }  // namespace
 
-ProcessGroup::ProcessGroup(const Settings& settings) {
+ProcessGroup::ProcessGroup(const Settings& settings) : ends_on_stop_(settings.ends_on_stop) {
   const std::string& program = settings.command[0];
   std::array<int, 2> channel = {-1, -1};
   const std::array<int, 2> log = MakeStream(program);
@@ -165,6 +161,14 @@ ProcessGroup::ProcessGroup(const Settings& settings) {
 }
 
 ProcessGroup::~ProcessGroup() { End(); }
+
+void ProcessGroup::StopIfUserStops() const {
+  if (ends_on_stop_ && StopRequested()) throw std::runtime_error("interrupted");
+}
+
+void ProcessGroup::Signal(int signal) const {
+  if (process_ > 0) ::kill(process_, signal);
+}
 
 void ProcessGroup::ReadLog() {
   ReadSomeOf(log_, lines_);

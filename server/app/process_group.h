@@ -24,6 +24,9 @@ class ProcessGroup {
     std::string folder;                    // in which it runs; "": the current one
     /// Whether it has a channel: its file descriptors 3, which it reads, and 4, which it writes.
     bool has_channel = false;
+    /// Whether Read() and Send() end when the user stops this program. False: the caller looks
+    /// after that, and may let it finish what it does.
+    bool ends_on_stop = true;
   };
 
   /// @throws std::runtime_error if it cannot be started.
@@ -33,12 +36,16 @@ class ProcessGroup {
   ProcessGroup& operator=(const ProcessGroup&) = delete;
 
   /// Waits until it has written something or has closed all of its outputs, and reads that.
-  /// @return false after `deadline`. @throws std::runtime_error if the user stops this program.
+  /// @return false after `deadline`. @throws std::runtime_error if the user stops this program
+  /// (Settings::ends_on_stop).
   [[nodiscard]] bool Read(Clock::time_point deadline);
 
   /// Writes to the channel. @return false if it has ended, or has not read all by `deadline`.
   /// @throws as Read().
   [[nodiscard]] bool Send(std::string_view bytes, Clock::time_point deadline);
+
+  /// Sends it a signal, if it has not been waited for.
+  void Signal(int signal) const;
 
   /// What came from the channel since the last call.
   std::string TakeReceived();
@@ -57,7 +64,9 @@ class ProcessGroup {
   void ReadChannel();
   void DrainLog();
   void AwaitEnd() const;
+  void StopIfUserStops() const;
 
+  const bool ends_on_stop_;
   pid_t process_ = -1;
   int exit_ = -1;                // readable when the process has ended; -1: not known
   int channel_ = -1, log_ = -1;  // -1: closed
