@@ -61,6 +61,11 @@ const std::vector<std::string>& CameraNames() {
   return names;
 }
 
+const std::string& CameraMeantBy(const std::string& name) {
+  static const std::string right = "right";
+  return name == "side" ? right : name;
+}
+
 std::vector<const PersonState*> FramedPeople(const SceneState& state) {
   const auto place = [](const PersonState& person) {
     return Eigen::Vector2d(person.links[urdf::kPelvis].position.head<2>());
@@ -94,7 +99,7 @@ GroundExtent GroundExtentOf(const SceneState& state) {
 
 Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
   for (const auto& [known, direction] : Directions()) {
-    if (known != name) continue;
+    if (known != CameraMeantBy(name)) continue;
     Camera camera;
     camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
     camera.up = direction.up;

@@ -28,6 +28,10 @@ struct Camera {
 /// "front", "back", "left", "right", "top", "iso", "three_quarter": in display order.
 const std::vector<std::string>& CameraNames();
 
+/// The name for which `name` is another word: of "side", which papers call the sagittal view,
+/// "right". Other names are their own.
+const std::string& CameraMeantBy(const std::string& name);
+
 /// The named camera, aimed at the people in `state` (their pelvis projected on the floor; the
 /// origin without people) at a distance that shows a standing adult with arms overhead.
 /// With robots but no people: aimed at the middle of the robots, at a distance that shows all of

@@ -36,7 +36,7 @@ CameraChoice ParseCamera(const std::string& text) {
     return choice;
   }
   for (const std::string& name : render::CameraNames()) {
-    if (name == text) return choice;
+    if (name == render::CameraMeantBy(text)) return choice;
   }
   throw BadValue(fmt::format(
       "unknown camera '{}'; expected {}, X,Y,Z:X,Y,Z (position: target, m) or FILE.yaml with keys",

@@ -61,6 +61,11 @@ TEST(Camera, HasTheUsualNames) {
   for (const std::string& name : CameraNames()) EXPECT_NO_THROW(NamedCamera(name, SceneState()));
 }
 
+TEST(Camera, HasAnotherWordForTheRightSide) {
+  const SceneState nobody;
+  EXPECT_EQ(NamedCamera("side", nobody).position, NamedCamera("right", nobody).position);
+}
+
 TEST(Camera, RejectsAnUnknownNameAndListsTheKnownOnes) {
   try {
     NamedCamera("botom", SceneState());
