@@ -20,7 +20,7 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/golden.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/motion.md", "docs/page.md", "docs/pictures.md", "docs/pose.md", "docs/urdf.md",
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/golden.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/many_machines.md", "docs/motion.md", "docs/page.md", "docs/pictures.md", "docs/pose.md", "docs/urdf.md",
              "tests/bench/README.md", "tests/soak/README.md"]
 # Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
@@ -154,6 +154,25 @@ def write_rules(folder):
     (pathlib.Path(folder) / "rules.yaml").write_text(rules)
 
 
+def try_batch(line, words, folder):
+    """`jobs` and `batch`, with a trial of a study and folders for what is made of it."""
+    folder = pathlib.Path(folder)
+    for name in ("trials", "clips", "loads"):
+        (folder / name).mkdir()
+    problem = run([PROGRAM, "convert", "demo:lift", "--seconds", "0.1", "--out", "trials/S07_lift_001.mvnx"], folder)
+    if problem:
+        return problem
+    jobs = [{"id": f"{camera}", "command": "render", "options": {"source": "trials/S07_lift_001.mvnx", "camera": camera, "size": "64x64",
+                                                                "out": f"clips/{camera}.png"}} for camera in ("front", "side")]
+    if words[1] == "batch":
+        (folder / "jobs.jsonl").write_text("".join(json.dumps(job) + "\n" for job in jobs))
+    if "--check" in words:
+        problem = run([PROGRAM, "batch", "jobs.jsonl"], folder)
+        if problem:
+            return problem
+    return run(["bash", "-c", line.replace("kinescope", shlex.quote(PROGRAM), 1)], folder)
+
+
 def try_kinescope(words, folder):
     words = [PROGRAM] + words[1:]
     command = words[1]
@@ -247,6 +266,8 @@ def attempt(line, words, folder):
             return "never: ros_source_test runs it with a ROS graph"
         if not SETUP:
             return "skip: built without ROS"
+    if words[:2] in (["kinescope", "jobs"], ["kinescope", "batch"]):
+        return try_batch(line, words, folder)
     if name == "kinescope" or name.endswith("/bin/kinescope"):
         return try_kinescope([RECORDING if w == "recording.mvnx" else w for w in words], folder)
     return "docs_test.py cannot run this command"
