@@ -49,11 +49,12 @@ bool HasGloves(const PersonModel& model) {
 
 std::shared_ptr<const PersonModel> SharedModel(std::shared_ptr<const PersonModel> model) {
   static std::mutex mutex;
-  static std::deque<std::shared_ptr<const PersonModel>> newest;  // guarded by mutex
+  static std::deque<std::weak_ptr<const PersonModel>> newest;  // guarded by mutex
   if (HasGloves(*model)) return model;
   const std::lock_guard lock(mutex);
   for (const auto& each : newest) {
-    if (AreEqual(*each, *model)) return each;
+    const auto known = each.lock();
+    if (known && AreEqual(*known, *model)) return known;
   }
   newest.push_back(model);
   if (newest.size() > kMost) newest.pop_front();

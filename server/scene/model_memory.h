@@ -1,5 +1,6 @@
-/// Remembers the newest models of this process, so that two recordings of one person, rendered one
-/// after the other, share a model, and with it all that renderers have made of it. Any thread.
+/// Knows the newest models of this process, as long as somebody has them, a renderer for example:
+/// two recordings of one person, rendered one after the other, then share a model, and with it all
+/// that the renderer has made of it. Any thread.
 #pragma once
 
 #include <memory>
