@@ -186,7 +186,9 @@ void LegendContent::Add(const LegendContent& other) {
 }
 
 LegendRow GroundReactionRow() {
-  return {{kCopColor, 1}, 0, "ground reaction force", "1 m/kN", LegendRow::Symbol::kArrow};
+  LegendRow row{{kCopColor, 1}, 0, "ground reaction force", "1 m/kN", LegendRow::Symbol::kArrow};
+  row.short_name = "GRF";
+  return row;
 }
 
 LegendContent LegendOf(const SceneState& state, const SceneLook& look) {

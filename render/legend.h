@@ -27,6 +27,7 @@ struct LegendRow {
   std::string range = {};
   Symbol symbol = Symbol::kDisc;
   SphereRim rim = SphereRim::kNone;
+  std::string short_name = {};  // in place of the name where both name and range have no room
 
   /// Of an element that only some pictures have: a path, a reference pose, an object, a robot, a
   /// marker, a hand load.

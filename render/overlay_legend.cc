@@ -77,8 +77,13 @@ std::vector<LegendRow> RowsWithRoom(const LegendContent& content, const OverlayS
 // Of the legend's one line.
 constexpr double kShortLine = 1.8;  // of its text's size
 
-// For small pictures: the classes alone, in one line, so that the person is not covered.
-void PaintShortLegend(OverlayPage& page, const std::array<double, 2>& class_limits) {
+// Of the picture; the time is in the other corner.
+constexpr double kWidestShortLegend = 0.6;
+
+// For small pictures: the classes alone, in one line, so that the person is not covered. And what
+// the length of arrows means, if that has room: nothing else in the picture tells it.
+void PaintShortLegend(OverlayPage& page, const LegendContent& content,
+                      const std::array<double, 2>& class_limits) {
   const std::string medium = fmt::format("{:.3g}", 100 * class_limits[0]);
   const std::string high = fmt::format("{:.3g}", 100 * class_limits[1]);
   const std::array<std::pair<LoadClass, std::string>, 3> classes = {{
@@ -93,6 +98,15 @@ void PaintShortLegend(OverlayPage& page, const std::array<double, 2>& class_limi
     width += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
   }
   double x = page.Px(kMargin);
+  const auto arrow =
+      std::find_if(content.rows.begin(), content.rows.end(),
+                   [](const LegendRow& row) { return row.symbol == LegendRow::Symbol::kArrow; });
+  bool has_arrow = arrow != content.rows.end();
+  if (has_arrow) {
+    const double wider = width + 1.2 * size + page.fonts.regular.Width(arrow->range, size) + pad;
+    has_arrow = x + wider <= kWidestShortLegend * page.width;
+    if (has_arrow) width = wider;
+  }
   const double top = page.bottom - page.Px(kMargin) - kShortLine * size;
   page.canvas.RoundedBox(x, top, width, kShortLine * size, page.Px(8), page.inks.panel);
   for (const auto& [load_class, text] : classes) {
@@ -105,6 +119,10 @@ void PaintShortLegend(OverlayPage& page, const std::array<double, 2>& class_limi
                      page.inks.text);
     x += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
   }
+  if (!has_arrow) return;
+  PaintLegendSymbol(page, *arrow, x + pad + 0.45 * size, top + 0.9 * size);
+  page.canvas.Text(x + pad + 1.2 * size, top + 1.25 * size, arrow->range, page.fonts.regular, size,
+                   page.inks.text);
 }
 
 void PaintDisc(OverlayPage& page, const LegendRow& row, double x, double y) {
@@ -179,7 +197,7 @@ void PaintLegend(OverlayPage& page, const LegendContent& content,
   if (rows.empty()) return;
   const LegendLayout layout = MeasureLegend(page, rows, content.notes.size());
   if (IsWide(layout, page)) {
-    if (content.has_classes()) PaintShortLegend(page, class_limits);
+    if (content.has_classes()) PaintShortLegend(page, content, class_limits);
     return;
   }
   OverlayFonts& f = page.fonts;
@@ -192,14 +210,17 @@ void PaintLegend(OverlayPage& page, const LegendContent& content,
   for (const LegendRow& row : rows) {
     baseline += layout.line;
     PaintLegendSymbol(page, row, text_left + 0.36 * layout.column, baseline - 0.36 * size);
-    // A name that needs the room of its range is the more important one.
     const double whole = right - text_left - layout.column;
-    const bool has_range =
-        row.is_addition() ||
-        f.regular.Width(row.name, size) + f.regular.Width(row.range, size) <= whole;
+    const auto has_room = [&](const std::string& name) {
+      return f.regular.Width(name, size) + f.regular.Width(row.range, size) <= whole;
+    };
+    const bool is_short = !has_room(row.name) && !row.short_name.empty();
+    const std::string& name = is_short ? row.short_name : row.name;
+    // A name that needs the room of its range is the more important one.
+    const bool has_range = row.is_addition() || has_room(name);
     const double range_left = has_range ? right - f.regular.Width(row.range, size) : right;
     const double room = range_left - text_left - layout.column;
-    page.canvas.Text(text_left + layout.column, baseline, Shorten(row.name, f.regular, size, room),
+    page.canvas.Text(text_left + layout.column, baseline, Shorten(name, f.regular, size, room),
                      f.regular, size, page.inks.text);
     if (has_range) {
       page.canvas.Text(range_left, baseline, row.range, f.regular, size, page.inks.text);

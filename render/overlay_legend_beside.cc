@@ -26,7 +26,7 @@ struct BesideLayout {
   std::vector<double> columns;            // widths
   std::vector<std::string> title, notes;  // one per line
   bool has_notes_beside_title;
-  bool has_scales;       // beside the names of arrows
+  bool has_short_names;  // of rows that have one
   double width, height;  // of all of it
 };
 
@@ -55,14 +55,14 @@ std::vector<std::string> Wrapped(const std::string& text, Font& font, int size, 
   return lines;
 }
 
-std::string RangeOf(const LegendRow& row, const BesideLayout& layout) {
-  return row.symbol == LegendRow::Symbol::kArrow && !layout.has_scales ? "" : row.range;
+const std::string& NameOf(const LegendRow& row, const BesideLayout& layout) {
+  return layout.has_short_names && !row.short_name.empty() ? row.short_name : row.name;
 }
 
 double WidthOf(const LegendRow& row, const BesideLayout& layout, Font& font) {
-  const std::string text = RangeOf(row, layout);
-  const double range = text.empty() ? 0 : 0.9 * layout.font + font.Width(text, layout.font);
-  return layout.symbol + font.Width(row.name, layout.font) + range;
+  const double range =
+      row.range.empty() ? 0 : 0.9 * layout.font + font.Width(row.range, layout.font);
+  return layout.symbol + font.Width(NameOf(row, layout), layout.font) + range;
 }
 
 double Gap(const BesideLayout& layout) { return 1.6 * layout.font; }
@@ -118,11 +118,11 @@ BesideLayout LayoutOf(const OverlaySizes& sizes, const LegendContent& content, d
   layout.line = kLineHeight * layout.font;
   layout.symbol = std::max(sizes.Px(24), 1.6 * layout.font);
   const bool is_strip = room > 0;
-  // As many columns as have room. Room for the scene is worth more than the scale of an arrow.
+  // As many columns as have room. Room for the scene is worth more than whole names.
   std::size_t count = is_strip ? std::min(kMostColumns, content.rows.size()) : 1;
   for (;; --count) {
-    for (const bool has_scales : {true, false}) {
-      layout.has_scales = has_scales;
+    for (const bool has_short_names : {false, true}) {
+      layout.has_short_names = has_short_names;
       layout.columns = Columns(content, count, layout, fonts.regular);
       layout.width = SumOf(layout);
       if (layout.width <= room || !is_strip) break;
@@ -211,10 +211,11 @@ void PaintLegendBeside(OverlayPage& page, const PictureSpec& spec) {
     const double y = baseline + layout.line * static_cast<double>(row);
     const LegendRow& entry = content.rows[i];
     PaintLegendSymbol(page, entry, column_left + 0.4 * layout.symbol, y - 0.36 * size);
-    page.canvas.Text(column_left + layout.symbol, y, entry.name, f.regular, size, page.inks.text);
-    const std::string range = RangeOf(entry, layout);
-    const double range_left = column_left + layout.columns[column] - f.regular.Width(range, size);
-    page.canvas.Text(range_left, y, range, f.regular, size, page.inks.text);
+    page.canvas.Text(column_left + layout.symbol, y, NameOf(entry, layout), f.regular, size,
+                     page.inks.text);
+    const double range_left =
+        column_left + layout.columns[column] - f.regular.Width(entry.range, size);
+    page.canvas.Text(range_left, y, entry.range, f.regular, size, page.inks.text);
   }
   if (layout.has_notes_beside_title) {
     page.canvas.Text(title_right + Gap(layout), top + 0.95 * size, layout.notes.front(), f.regular,

@@ -2,7 +2,7 @@
 import { axesOf, cameraAt, framedPeople, middleOf } from './cameras.js';
 import { HeldView } from './held_view.js';
 import { ballsOf } from './outline.js';
-import { neededHull, placeFor } from './view_frame.js';
+import { besideCorners, neededHull, placeFor } from './view_frame.js';
 
 /** @typedef {import('./messages.js').CameraView} CameraView
  *  @typedef {import('./view_frame.js').FreeArea} FreeArea */
@@ -61,7 +61,10 @@ export class LiveCamera {
       ({ place: person.links[0].position, balls: ballsOf(person, this.#outlines.get(person.character)) }));
     const needed = neededHull(people, this.#middle, axes);
     const shape = { aspect: this.#aspect, slope, area: this.#area };
-    const place = people.length === 0 ? placeFor(needed, shape) : this.#held.follow(needed, shape, this.#secs);
-    return cameraAt(view, axes, place, followed);
+    if (people.length === 0) return cameraAt(view, axes, placeFor(needed, shape), followed);
+    const place = this.#held.follow(needed, shape, this.#secs);
+    const from = this.#middle.map((v, i) => v - followed[i]);
+    const away = [axes.right, axes.up, axes.forward].map((axis) => axis[0] * from[0] + axis[1] * from[1] + axis[2] * from[2]);
+    return cameraAt(view, axes, besideCorners(place, needed, away, shape), followed);
   }
 }

@@ -36,7 +36,8 @@ const readHeader = object({
   }),
   regions: object({
     joints: listOf(number), balls: listOf(boolean), parts: listOf(number), middles_m: listOf(number),
-    directions: listOf(number), half_widths_m: listOf(number), least_weight: number,
+    directions: listOf(number), half_widths_m: listOf(number), flares: listOf(number),
+    least_weight: number,
   }),
   colors: object({ top: rgb, trousers: rgb, shoes: rgb, bare: rgb, band: rgb }),
 });
@@ -71,13 +72,14 @@ function limbsOf({ links, points_m, radii_m, covered_by, covered_by_joined }) {
 /** Null if the columns differ in length.
  *  @param {ReturnType<typeof readHeader>['regions']} columns
  *  @returns {import('./skin_regions.js').RegionShape[]|null} */
-function regionsOf({ joints, balls, parts, middles_m, directions, half_widths_m }) {
+function regionsOf({ joints, balls, parts, middles_m, directions, half_widths_m, flares }) {
   const count = joints.length;
-  if ([balls, parts, half_widths_m].some(({ length }) => length !== count)
+  if ([balls, parts, half_widths_m, flares].some(({ length }) => length !== count)
     || [middles_m, directions].some(({ length }) => length !== 3 * count)) return null;
   return joints.map((joint, i) => ({
     joint, isBall: balls[i], parts: parts[i], middle: middles_m.slice(3 * i, 3 * i + 3),
     direction: directions.slice(3 * i, 3 * i + 3), halfWidth: half_widths_m[i],
+    flare: flares[i],
   }));
 }
 

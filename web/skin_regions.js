@@ -1,9 +1,9 @@
 // Where loads are shown on the skin, as the server finds it (urdf/skin/load_regions.cc): the region around each joint,
 // in the bind pose. Pure functions.
 
-/** @typedef {{joint: number, isBall: boolean, parts: number, middle: number[], direction: number[], halfWidth: number}}
- *    RegionShape  a ball, or a band across `direction`; joint: as in the loads of a state; parts: of the body, as bits;
- *    middle, halfWidth: m */
+/** @typedef {{joint: number, isBall: boolean, parts: number, middle: number[], direction: number[], halfWidth: number,
+ *    flare: number}} RegionShape  a ball, or a band across `direction`, which falls to the sides by `flare` (1/m);
+ *    joint: as in the loads of a state; parts: of the body, as bits; middle, halfWidth: m */
 
 const TRUNK = 0;
 const OUTSIDE = -0.01;  // where triangles have corners in different regions
@@ -32,10 +32,10 @@ function partsOfVertices(indices, weights, partOfFrame, least) {
  *  @param {number} x
  *  @param {number} y
  *  @param {number} z */
-function insideOf({ isBall, middle, direction, halfWidth }, x, y, z) {
+function insideOf({ isBall, middle, direction, halfWidth, flare }, x, y, z) {
   const dx = x - middle[0], dy = y - middle[1], dz = z - middle[2];
-  const away = isBall ? Math.hypot(dx, dy, dz) : Math.abs(dx * direction[0] + dy * direction[1] + dz * direction[2]);
-  return 1 - away / halfWidth;
+  const along = dx * direction[0] + dy * direction[1] + dz * direction[2] - flare * dy * dy;
+  return 1 - (isBall ? Math.hypot(dx, dy, dz) : Math.abs(along)) / halfWidth;
 }
 
 /** @param {Pick<import('./skin_buffer.js').Skin, 'rig'|'positions'|'indices'|'weights'|'triangles'>} skin

@@ -178,3 +178,27 @@ export function isWithin(hull, { right, up, height }, { aspect, slope, area }) {
   return shown.left >= window.left && shown.right <= window.right && shown.down >= window.down && shown.up <= window.up
     && !area.corners.map(windowOf).some((corner) => overlaps(shown, corner));
 }
+
+/** The place, so far to the side that people who have gone away from the middle are beside the covered corners that are at
+ *  their height; without room between these, in the middle between them.
+ *  @param {ViewPlace} place
+ *  @param {ViewHull} people
+ *  @param {Vector} away  from the middle to that of the people, in the camera's axes; m
+ *  @param {ViewShape} shape
+ *  @returns {ViewPlace} */
+export function besideCorners({ right, up, height }, people, away, { aspect, slope, area }) {
+  const balls = people.map(({ center, radius }) => ({ center: center.map((v, i) => v + away[i]), radius }));
+  const seat = { eye: [right, up, -height / 2 / slope], slope };
+  const shown = shownAround(seat, balls, aspect), whole = windowOf(area.free);
+  const free = area.corners.map(windowOf).filter((corner) => corner.down < shown.up && shown.down < corner.up)
+    .reduce(beside, whole);
+  if (free.left === whole.left && free.right === whole.right) return { right, up, height };
+  let toRight = -Infinity, toLeft = -Infinity;  // m, that people must go at least
+  for (const { center, radius } of balls) {
+    const metres = aspect * slope * Math.max(center[2] - seat.eye[2], 1e-6), x = center[0] - right;
+    toRight = Math.max(toRight, metres * free.left - (x - radius));
+    toLeft = Math.max(toLeft, x + radius - metres * free.right);
+  }
+  const step = toRight + toLeft > 0 ? (toRight - toLeft) / 2 : toRight > 0 ? toRight : Math.min(-toLeft, 0);
+  return { right: right - step, up, height };
+}

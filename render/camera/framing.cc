@@ -72,6 +72,10 @@ struct Place {
   double ortho_height = 0;  // m; 0: perspective
   double slope = 0;         // of half the picture's height
 
+  // m, of the picture at this depth.
+  double half_height(double depth) const {
+    return ortho_height > 0 ? 0.5 * ortho_height : slope * std::max(depth - eye.z(), 1e-6);
+  }
   // The larger, the smaller things are.
   double smallness(double depth) const { return ortho_height > 0 ? ortho_height : depth - eye.z(); }
 };
@@ -104,8 +108,7 @@ Place PlaceOf(const Camera& camera, const std::vector<Ball>& balls, double aspec
 // What of the picture a ball covers.
 Window ShownAt(const Place& place, const Ball& ball, double aspect) {
   const Vector3d from_eye = ball.center - place.eye;
-  const double half = place.ortho_height > 0 ? 0.5 * place.ortho_height
-                                             : place.slope * std::max(from_eye.z(), 1e-6);
+  const double half = place.half_height(ball.center.z());
   const double x = from_eye.x() / (half * aspect), y = from_eye.y() / half;
   const double across = ball.radius / (half * aspect), upright = ball.radius / half;
   return {x - across, x + across, y - upright, y + upright};
@@ -276,6 +279,29 @@ bool AreWithin(const Camera& camera, const std::vector<Ball>& balls, double aspe
          shown.up <= window.up &&
          std::none_of(corners.begin(), corners.end(),
                       [&](const Window& corner) { return Overlaps(shown, corner); });
+}
+
+double StepBesideCorners(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+                         const FreeArea& area) {
+  const Eigen::Matrix3d axes = AxesOf(camera);
+  const Place place{axes * camera.position, camera.ortho_height_m,
+                    std::tan(0.5 * camera.vertical_fov_rad)};
+  const std::vector<Ball> in_axes = InAxes(axes, balls);
+  const Window shown = ShownAround(place, in_axes, aspect), whole = WindowOf(area.free);
+  Window free = whole;
+  for (const Window& corner : CornersOf(area)) {
+    if (corner.down < shown.up && shown.down < corner.up) free = Beside(free, corner);
+  }
+  if (free.left == whole.left && free.right == whole.right) return 0;
+  double to_right = -1e300, to_left = -1e300;  // m, that people must go at least
+  for (const Ball& ball : in_axes) {
+    const Window at = ShownAt(place, ball, aspect);
+    const double metres = aspect * place.half_height(ball.center.z());
+    to_right = std::max(to_right, metres * (free.left - at.left));
+    to_left = std::max(to_left, metres * (at.right - free.right));
+  }
+  if (to_right + to_left > 0) return 0.5 * (to_right - to_left);
+  return to_right > 0 ? to_right : std::min(-to_left, 0.0);
 }
 
 }  // namespace kinescope::render

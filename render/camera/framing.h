@@ -63,4 +63,10 @@ struct Filling {
 bool AreWithin(const Camera& camera, const std::vector<Ball>& balls, double aspect,
                const FreeArea& area, double share);
 
+/// How far `camera` must go to its left so that the rectangle around all balls is beside the
+/// covered corners that are at its height, m; negative: to its right. Without room between them, it
+/// comes into their middle.
+double StepBesideCorners(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+                         const FreeArea& area);
+
 }  // namespace kinescope::render

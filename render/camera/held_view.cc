@@ -148,6 +148,15 @@ Camera MovedTo(const ViewPlace& place, const Camera& camera, const Vector3d& mid
   return moved;
 }
 
+ViewPlace BesideCorners(ViewPlace place, const ViewHull& people, const Vector3d& away,
+                        const Camera& camera, const ViewShape& shape) {
+  std::vector<Ball> balls = InWorld(people.balls(), camera);
+  for (Ball& ball : balls) ball.center += away;
+  place.right -=
+      StepBesideCorners(MovedTo(place, camera, Vector3d::Zero()), balls, shape.aspect, shape.area);
+  return place;
+}
+
 // Of what was needed since `wait_`, and now.
 ViewHull HeldView::Recent(const ViewHull& needed, double secs) {
   if (seen_.empty() || secs - seen_.back().secs >= kRoomInterval) seen_.push_back({secs, needed});

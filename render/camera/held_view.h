@@ -52,6 +52,11 @@ ViewPlace PlaceFor(const ViewHull& hull, const Camera& camera, const ViewShape& 
 [[nodiscard]] Camera MovedTo(const ViewPlace& place, const Camera& camera,
                              const Eigen::Vector3d& middle);
 
+/// `place`, so far to the side that people who have gone away from the middle are not covered.
+/// @param away  from the middle to that of the people, m; world
+ViewPlace BesideCorners(ViewPlace place, const ViewHull& people, const Eigen::Vector3d& away,
+                        const Camera& camera, const ViewShape& shape);
+
 /// Shows what was needed during the last two seconds. It goes over to more as soon as people would
 /// fill more than 85 % of what is free, or be covered, and slowly to less where they fill less than
 /// 65 %. If that was too soon, because they rise again, it waits twice as long the next time: who

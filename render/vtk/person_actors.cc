@@ -143,12 +143,14 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
   const bool is_stale = liveness == Liveness::kStale;
   const bool is_full = look.detail == Detail::kFull, has_lines = look.style == Style::kLine;
   const double unseen = !is_full ? kUnseen : has_lines ? 0 : kUnseenInFullDetail;
+  const bool has_loads_on_skin =
+      look.loads != LoadsShown::kSpheres && look.Shows(ScenePart::kLoads);
   body_.SetVisible(look.Shows(ScenePart::kBody));
-  bool is_changed = body_.Update(
-      person, {look.figure, look.loads != LoadsShown::kSpheres, has_lines}, TintOf(look, is_stale),
-      {is_full ? 0 : kUnseen * metres_per_pixel, unseen * metres_per_pixel,
-       metres_per_pixel > kFar},
-      log, labels);
+  bool is_changed =
+      body_.Update(person, {look.figure, has_loads_on_skin, has_lines}, TintOf(look, is_stale),
+                   {is_full ? 0 : kUnseen * metres_per_pixel, unseen * metres_per_pixel,
+                    metres_per_pixel > kFar},
+                   log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
   UpdateShadow(person, look);
   const bool has_spheres = look.loads != LoadsShown::kSkin || body_.limbs() == nullptr;

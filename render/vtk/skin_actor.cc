@@ -125,6 +125,8 @@ bool SkinActor::Update(const PersonState& person,
     levels_.clear();
     is_changed = true;
   }
+  // Borders of load classes may be anywhere, and would be ragged on large triangles.
+  if (shading.has_loads) error_m = 0;
   const double error = PermittedError(
       {0.0003, 0.0006, 0.0008, 0.001, 0.0014, 0.002, 0.003, 0.004, 0.006, 0.010}, error_m);
   Level& level = levels_[error];

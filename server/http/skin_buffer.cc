@@ -114,7 +114,8 @@ json LimbsToJson(const urdf::Skeleton& skeleton, const skin::Build& build) {
 // The regions of joint loads. A byte or two of each vertex would take more than the page may load.
 json RegionsToJson(const skin::BindPose& bind, double height) {
   json joints = json::array(), balls = json::array(), parts = json::array(),
-       middles = json::array(), directions = json::array(), half_widths = json::array();
+       middles = json::array(), directions = json::array(), half_widths = json::array(),
+       flares = json::array();
   const skin::RegionShapes shapes = skin::RegionShapesOf(bind, height);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const skin::RegionShape& shape = shapes[i];
@@ -124,11 +125,12 @@ json RegionsToJson(const skin::BindPose& bind, double height) {
     for (const double value : shape.middle) middles.push_back(Micro(value));
     for (const double value : shape.direction) directions.push_back(Micro(value));
     half_widths.push_back(Micro(shape.half_width));
+    flares.push_back(Micro(shape.flare));
   }
   return {{"joints", std::move(joints)},         {"balls", std::move(balls)},
           {"parts", std::move(parts)},           {"middles_m", std::move(middles)},
           {"directions", std::move(directions)}, {"half_widths_m", std::move(half_widths)},
-          {"least_weight", skin::kPartWeight}};
+          {"flares", std::move(flares)},         {"least_weight", skin::kPartWeight}};
 }
 
 // The folds at which flesh meets.

@@ -270,7 +270,10 @@ render::Camera CameraController::AimHeld(const SceneState& state, double secs,
     place.height = held_.height();
   }
   const bool is_other = shape && shape->aspect != live.aspect;
-  if (!is_other) return render::MovedTo(place, camera, middle);
+  if (!is_other) {
+    place = render::BesideCorners(place, needed, people.middle - middle, camera, live);
+    return render::MovedTo(place, camera, middle);
+  }
   return render::MovedTo(render::PlaceFor(shown, camera, *shape), camera, people.middle);
 }
 

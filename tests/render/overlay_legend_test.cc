@@ -17,6 +17,7 @@ using kinescope::testing::SceneWith;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::StartsWith;
 
@@ -103,6 +104,19 @@ TEST(OverlayLegend, CoversAtMostThreeTenthsOfThePictureOrShowsTheClassesOnly) {
   EXPECT_EQ(wide.texts.front(), "Joint load, % of capacity");
   EXPECT_LE(wide.right, kMargin + 0.3 * 1280);
   EXPECT_THAT(narrow.texts, ElementsAre("≤ 30", "≤ 60", "> 60 %"));
+}
+
+// Without it, nothing tells what the length of an arrow means.
+TEST(OverlayLegend, TellsTheScaleOfForceArrowsInPicturesOfAnyWidth) {
+  SceneState state = SceneWith(Posture::kStanding);
+  FootForce& foot = state.people[0].forces.feet[0];
+  foot.force = {0, 0, 400};
+  foot.touches_floor = true;
+  const auto texts_at = [&](double width_px) { return PaintedLegend(state, width_px).texts; };
+  EXPECT_THAT(texts_at(1280), IsSupersetOf({"ground reaction force", "1 m/kN"}));
+  EXPECT_THAT(texts_at(750), IsSupersetOf({"GRF", "1 m/kN"}));
+  EXPECT_THAT(texts_at(600), ElementsAre("≤ 30", "≤ 60", "> 60 %", "1 m/kN"));
+  EXPECT_THAT(texts_at(360), ElementsAre("≤ 30", "≤ 60", "> 60 %"));
 }
 
 TEST(OverlayLegend, EndsWithTheAssumedBodyMass) {

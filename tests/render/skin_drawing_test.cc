@@ -156,6 +156,18 @@ TEST_F(LoadsOnSkin, AreInTheColourOfTheClassAndLargerForAHigherOne) {
   }
 }
 
+// The large triangles of small pictures would leave notches in their borders.
+TEST_F(LoadsOnSkin, HaveTheSameShapeInSmallPictures) {
+  const SceneState state = Loaded(LoadClass::kLow);
+  const auto share_at = [&](int size) {
+    spec_.width = spec_.height = size;
+    const int count = CountOf(DrawWith(LoadsShown::kSkin, state), ColorOf(LoadClass::kLow), 15);
+    return static_cast<double>(count) / (size * size);
+  };
+  const double of_large = share_at(960);
+  EXPECT_NEAR(share_at(240), of_large, 0.04 * of_large);
+}
+
 TEST_F(LoadsOnSkin, AreHatchedWhereTheyAreUnknown) {
   // Every row through a knee has several stripes.
   const Image unknown = DrawWith(LoadsShown::kSkin, Loaded(LoadClass::kUnknown));

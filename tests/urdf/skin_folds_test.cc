@@ -1,5 +1,5 @@
-// Where people have no folds the skin has none: on top of a shoulder whose arm is overhead, and on
-// the belly of a bent trunk.
+// Where people have no folds the skin has none: on top of a shoulder whose arm is overhead, under
+// the seat of a squatting person, and on the belly of a bent trunk.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -18,14 +18,15 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urdf::At;
 
-// The length of the edges at which the surface turns by more than a right angle, m. `is_counted`
+// The length of the edges at which the surface turns by more than so many degrees, m. `is_counted`
 // says of a place in the bind pose whether its edges count.
 template <class IsCounted>
-double FoldedLength(const PersonSkin& skin, const PersonSkin::Surface& surface,
+double FoldedLength(const PersonSkin& skin, const PersonSkin::Surface& surface, double degrees,
                     const IsCounted& is_counted) {
+  const auto cosine = static_cast<float>(std::cos(degrees * kDegree));
   const auto normal_of = [&](const Triangle& t) {
     const Vector3f& a = surface.positions[t[0]];
-    return (surface.positions[t[1]] - a).cross(surface.positions[t[2]] - a).eval();
+    return (surface.positions[t[1]] - a).cross(surface.positions[t[2]] - a).normalized().eval();
   };
   std::map<std::pair<int, int>, Vector3f> normals;
   for (const Triangle& t : skin.triangles()) {
@@ -37,7 +38,7 @@ double FoldedLength(const PersonSkin& skin, const PersonSkin::Surface& surface,
   for (const auto& [edge, normal] : normals) {
     const auto [from, to] = edge;
     if (from > to || !is_counted(skin.rest()[At(from)])) continue;
-    if (normal.dot(normals.at({to, from})) < 0) {
+    if (normal.dot(normals.at({to, from})) < cosine) {
       length += (surface.positions[At(from)] - surface.positions[At(to)]).norm();
     }
   }
@@ -59,10 +60,34 @@ TEST(SkinFolds, NoneAreSharpOnTheShoulderOfARaisedArm) {
       PersonSkin::Surface surface;
       skin.Pose(urdf::ForwardKinematics(urdf::DefaultSkeleton(height), {}, angles), {}, surface);
       const Vector3f joint = skin.bind().links[urdf::kLeftUpperArm].position.cast<float>();
-      const double folded = FoldedLength(skin, surface, [&](const Vector3f& p) {
+      const double folded = FoldedLength(skin, surface, 90, [&](const Vector3f& p) {
         return (p - joint).norm() < 0.16f && p.z() > joint.z() - 0.02f;
       });
       EXPECT_LT(folded, 0.01) << raised.name << (is_woman ? ", woman" : ", man") << ", m";
+    }
+  }
+}
+
+// The groin is a fold; seat and crotch are smooth.
+TEST(SkinFolds, FewAreSharpWhereHipsBendFar) {
+  struct Bent {
+    const char* name;
+    double out, hip, knee;  // degrees
+  };
+  for (const bool is_woman : {false, true}) {
+    const double height = is_woman ? 1.62 : 1.75;
+    const PersonSkin skin = SkinOf(is_woman, height, is_woman ? 62 : 75);
+    for (const Bent& bent : {Bent{"sitting", 6, -90, 90}, {"squatting", 14, -118, 128}}) {
+      urdf::JointAngles angles{};
+      angles[urdf::jLeftHip] = kDegree * Vector3d(bent.out, bent.hip, 0);
+      angles[urdf::jRightHip] = kDegree * Vector3d(-bent.out, bent.hip, 0);
+      angles[urdf::jLeftKnee].y() = angles[urdf::jRightKnee].y() = bent.knee * kDegree;
+      PersonSkin::Surface surface;
+      skin.Pose(urdf::ForwardKinematics(urdf::DefaultSkeleton(height), {}, angles), {}, surface);
+      const double folded = FoldedLength(skin, surface, 45, [](const Vector3f& p) {
+        return (p - Vector3f(0, 0, -0.05f)).norm() < 0.25f && p.z() < -0.02f;
+      });
+      EXPECT_LT(folded, 1) << bent.name << (is_woman ? ", woman" : ", man") << ", m";
     }
   }
 }

@@ -188,9 +188,9 @@ std::map<std::string, urdf::JointAngles> Postures() {
 }
 
 // How much more than the bind pose itself, whose lips and ears count, a posture may have. Both are
-// also folds as people have them: the most steps are in the groins of a squatting man (0.46), the
-// creases in hollows of knees, too.
-constexpr double kMoreSteps = 0.45, kMoreCreases = 2.0;
+// also folds as people have them: the most steps are in the groins of a crawling woman (0.27), the
+// creases in hollows of knees, too (1.2 of a sitting man).
+constexpr double kMoreSteps = 0.30, kMoreCreases = 1.3;
 
 urdf::LinkPoses Posed(const urdf::JointAngles& angles) {
   return urdf::ForwardKinematics(urdf::DefaultSkeleton(), {}, angles);

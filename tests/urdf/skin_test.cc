@@ -222,6 +222,25 @@ TEST(LoadRegions, KeepADistanceFromEachOther) {
   }
 }
 
+// The top of the shoulders is nearly level: a band of the neck would run out on it in lobes.
+TEST(LoadRegions, ShowTheNeckInACollar) {
+  for (const bool is_woman : {false, true}) {
+    const double height = is_woman ? 1.62 : 1.75;
+    const PersonSkin skin = SkinOf(is_woman, height, is_woman ? 62 : 75);
+    const std::vector<LoadRegion> regions =
+        LoadRegionsOf(skin.rest(), BuiltInSkin().weights, skin.triangles(), skin.bind(), height);
+    const auto neck = RegionOf(urdf::jT1C7);
+    ASSERT_TRUE(neck);
+    double farthest = 0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (regions[i].joint != *neck || regions[i].inside <= 0) continue;
+      farthest = std::max(farthest, std::abs(skin.rest()[i].y()) * 1.0);
+    }
+    EXPECT_GT(farthest, 0.055) << "m to the side";
+    EXPECT_LT(farthest, 0.100) << "m to the side";
+  }
+}
+
 TEST(LoadRegions, CoverSkinAroundEveryJointFromAllSides) {
   const PersonSkin skin = SkinOf(false, 1.75, 75);
   const std::vector<LoadRegion> regions =

@@ -8,7 +8,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kArmsOut = 42 * kDegree, kLegsOut = 7 * kDegree;
+constexpr double kArmsOut = 42 * kDegree, kLegsOut = 9 * kDegree;
 
 // Towards the palm, rad; a relaxed hand.
 constexpr double kKnuckleBend = 0.16, kMiddleBend = 0.26, kEndBend = 0.20;

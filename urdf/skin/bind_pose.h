@@ -1,5 +1,5 @@
 /// The pose in which the body's surface is modelled: half way to what the joints will do, arms 42
-/// degrees and legs 7 degrees out, fingers slightly bent. Pelvis at the origin, x forward, z up.
+/// degrees and legs 9 degrees out, fingers slightly bent. Pelvis at the origin, x forward, z up.
 /// Pure functions, any thread.
 #pragma once
 

@@ -31,7 +31,7 @@ FoldShape FoldOf(int segment, const BindPose& bind, double scale) {
       fold.across = Vector3d::UnitY();
       fold.inwards = Vector3d::UnitX();
       fold.pressed = {0, 0.05};
-      fold.beside_midline = {-0.005, 0.045};
+      fold.beside_midline = {-0.040, 0.035};
       fold.softness = 0.006;
       fold.bulge = 0.25;
       fold.bulges = {0.10, -0.60};

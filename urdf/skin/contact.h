@@ -41,7 +41,7 @@ struct FoldShape {
   Eigen::Vector3d inwards = Eigen::Vector3d::UnitX();  // from the bone to the hollow side
   Growth pressed{-0.02, 0.01};                         // flesh this far inwards, m
   Growth bulging{-0.03, 0.02};                         // the same
-  /// From the midline of the body, where flesh belongs to neither hip; others are away from it.
+  /// From the midline of the body, where both hips share the flesh; others are away from it.
   Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
   Growth beside_midline{-2, -1};  // flesh this far outwards, m
   double softness = 0.005;        // pressed flesh goes past the plane by less than this, m

@@ -170,7 +170,7 @@ FarthestMove FarthestMoveOf(const Frame& frame) {
     case urdf::kRightForeArm:
     case urdf::kLeftForeArm: move.into_bend = -0.012; break;
     case urdf::kRightUpperLeg:
-    case urdf::kLeftUpperLeg: move.into_bend = 0.020; break;
+    case urdf::kLeftUpperLeg: move.into_bend = 0.016; break;
     case urdf::kRightLowerLeg:
     case urdf::kLeftLowerLeg: move.into_bend = -0.009; break;
     default: break;

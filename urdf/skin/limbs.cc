@@ -15,13 +15,10 @@ std::bitset<kLimbs> Merged(Limb limb) {
     for (const Limb other : others) merged.set(other);
   };
   switch (limb) {
-    case kPelvisLimb: with({kBellyLimb, kChestLimb, kRightThighLimb, kLeftThighLimb}); break;
     case kBellyLimb: with({kPelvisLimb, kChestLimb}); break;
     case kChestLimb: with({kPelvisLimb, kBellyLimb, kNeckLimb}); break;
     case kNeckLimb: with({kChestLimb, kHeadLimb}); break;
     case kHeadLimb: with({kNeckLimb}); break;
-    case kRightThighLimb:
-    case kLeftThighLimb: with({kPelvisLimb}); break;
     case kRightHandLimb: with({kRightForeArmLimb}); break;
     case kLeftHandLimb: with({kLeftForeArmLimb}); break;
     case kRightFootLimb: with({kRightShankLimb}); break;
@@ -31,12 +28,18 @@ std::bitset<kLimbs> Merged(Limb limb) {
   return merged;
 }
 
-// Those that are joined: what lies on the one is skin of the other.
+bool IsTrunkOrThigh(Limb limb) {
+  return limb <= kChestLimb || limb == kRightThighLimb || limb == kLeftThighLimb;
+}
+
+// Those that are joined: what lies on the one is skin of the other. Trunk and thighs all are: where
+// they fold, the skin on both sides of a border between them must be as dark.
 bool AreJoined(Limb a, Limb b) {
+  if (IsTrunkOrThigh(a) && IsTrunkOrThigh(b)) return true;
   if (a > b) std::swap(a, b);
-  const bool is_arm = b == kRightUpperArmLimb || b == kLeftUpperArmLimb;
-  const bool is_first_of_limb = is_arm || b == kRightThighLimb || b == kLeftThighLimb;
-  return is_first_of_limb ? a == (is_arm ? kChestLimb : kPelvisLimb) : b == a + 1;
+  if (b == kRightUpperArmLimb || b == kLeftUpperArmLimb) return a == kChestLimb;
+  const bool is_thigh = b == kRightThighLimb || b == kLeftThighLimb;
+  return !is_thigh && b == a + 1;
 }
 
 }  // namespace

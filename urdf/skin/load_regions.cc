@@ -31,6 +31,7 @@ RegionShape ShapeOf(int joint, const BindPose& bind, double scale) {
   // on the greater trochanter; above the iliac crest, below the armpits, above the collar.
   static const Vector3d kDeltoid(0, 0.060, -0.026), kTrochanter(0, 0.085, -0.058);
   constexpr double kAboveL5S1 = 0.026, kBelowT9T8 = 0.080, kAboveT1C7 = 0.036;
+  constexpr double kNeckFlare = 6;  // 1/m: 2 cm at the side of the neck, 9 cm out on the shoulders
   const int segment = urdf::ChildOf(joint);
   const urdf::Pose& link = bind.links[urdf::At(segment)];
   const BodyPart own = BodyPartOf(segment);
@@ -61,7 +62,9 @@ RegionShape ShapeOf(int joint, const BindPose& bind, double scale) {
     case urdf::JointGroup::kSpine:
       return joint == urdf::jL5S1 ? band(Vector3d::UnitZ(), kLowBelt, kAboveL5S1)
                                   : band(Vector3d::UnitZ(), kChest, -kBelowT9T8);
-    case urdf::JointGroup::kNeck: return band(forward_of_neck, kCollar, kAboveT1C7);
+    case urdf::JointGroup::kNeck:
+      shape.flare = kNeckFlare / scale;
+      return band(forward_of_neck, kCollar, kAboveT1C7);
     case urdf::JointGroup::kShoulder: return ball(kDeltoid, kShoulder);
     case urdf::JointGroup::kElbow: return band(along_bone, kElbow);
     case urdf::JointGroup::kWrist: return band(along_bone, kWrist);
@@ -77,8 +80,9 @@ RegionShape ShapeOf(int joint, const BindPose& bind, double scale) {
 double Inside(const RegionShape& shape, BodyPart part, const Vector3d& p) {
   if (!shape.parts.test(static_cast<std::size_t>(part))) return -1;
   const Vector3d from_middle = p - shape.middle;
-  const double away =
-      shape.is_ball ? from_middle.norm() : std::abs(shape.direction.dot(from_middle));
+  const double along =
+      shape.direction.dot(from_middle) - shape.flare * from_middle.y() * from_middle.y();
+  const double away = shape.is_ball ? from_middle.norm() : std::abs(along);
   return 1 - away / shape.half_width;
 }
 

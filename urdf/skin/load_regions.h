@@ -30,13 +30,15 @@ BodyPart BodyPartOf(int segment);
 
 /// A ball around `middle`, or a band across `direction` through it; in the bind pose, m. How far a
 /// point is inside: 1 minus its distance from the middle, in half widths; of a band: the distance
-/// along `direction`.
+/// along `direction`, less `flare` times the square of how far the point is to the side (y): the
+/// border of a collar crosses the top of the shoulders, and does not run along it.
 struct RegionShape {
   bool is_ball = false;
   std::bitset<kBodyParts> parts;  // by BodyPart: those it lies on
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // not always of length 1
   double half_width = 0;
+  double flare = 0;  // 1/m
 };
 /// By place in urdf::kScoredJoints. Limbs have a band around the joint, shoulders and hips a ball,
 /// the trunk a belt. `height`: stature, m (0: average).

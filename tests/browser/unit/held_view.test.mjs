@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { HeldView } from '../../../web/held_view.js';
-import { hullOf, neededHull, placeFor } from '../../../web/view_frame.js';
+import { besideCorners, hullOf, neededHull, placeFor } from '../../../web/view_frame.js';
 
 const WHOLE = { left: 0, top: 0, right: 1, bottom: 1 };
 const slope = Math.tan(0.26);
@@ -48,6 +48,20 @@ test('people fill height or width of what is free, with the same numbers as in t
     for (const part of ['right', 'up', 'height']) {
       assert.ok(Math.abs(place[part] - expected[part]) < 2e-4, `${JSON.stringify(place)}, not ${JSON.stringify(expected)}`);
     }
+  }
+});
+
+test('the view moves only where people would be covered, as far as in the server picture', () => {
+  const legend = { left: 0, top: 0.6, right: 0.3, bottom: 1 };
+  for (const [away, corners, expected] of [
+    [0, [legend], 0], [-1.2, [legend], -0.6579], [2.5, [legend], 0.6948],
+    [0.5, [legend, { left: 0.6, top: 0.6, right: 1, bottom: 1 }], 0.379],
+    [0.5, [legend, { left: 0.4, top: 0.6, right: 1, bottom: 1 }], 1.1552],
+    [-1.2, [], 0],
+  ]) {
+    const shape = { ...WIDE, area: { free: { ...WHOLE, top: 0.1 }, corners } };
+    const { right } = besideCorners({ right: 0, up: 0.9, height: 2.4748 }, STANDING, [away, 0, 0], shape);
+    assert.ok(Math.abs(right - expected) < 2e-4, `${right}, not ${expected}`);
   }
 });
 

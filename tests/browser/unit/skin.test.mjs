@@ -194,7 +194,7 @@ test('loads are shown on the same regions of the skin as in pictures of the serv
 });
 
 test('wherever the corners of a triangle have different regions, all of them are outside', () => {
-  const shape = { isBall: true, parts: 1, direction: [0, 0, 0], halfWidth: 1 };
+  const shape = { isBall: true, parts: 1, direction: [0, 0, 0], halfWidth: 1, flare: 0 };
   const shapes = [{ ...shape, joint: 4, middle: [0, 0, 0] }, { ...shape, joint: 9, middle: [1.5, 0, 0] }];
   const values = regionsOf({
     rig: { regions: { shapes, partOfFrame: [0, 1], leastWeight: 230 } },
@@ -214,6 +214,7 @@ test('a skin with unknown regions is rejected', () => {
     (header) => { header.frames.parts[3] = -1; },
     (header) => { header.regions.parts.pop(); },
     (header) => { header.regions.middles_m.pop(); },
+    (header) => { header.regions.flares.pop(); },
     (header) => { header.regions.half_widths_m[2] = 0; },
     (header) => { header.regions.joints = []; },
     (header) => { for (const key of Object.keys(header.regions)) if (key !== 'least_weight') {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/render/test_scene.h"
 
@@ -80,6 +81,21 @@ TEST(PlaceFor, FillsHeightOrWidthOfWhatIsFree) {
   expect(kLying, kWide, {0, 0.15, 1.4918});
   expect(kLying, {4.0 / 3, title}, {0, 0.2388, 1.9359});
   expect(kLying, {16.0 / 9, legend}, {0, -0.0498, 1.4918});
+}
+
+// The same numbers as on the page.
+TEST(BesideCorners, MovesThePictureOnlyWherePeopleWouldBeCovered) {
+  const PictureRect legend{0, 0.6, 0.3, 1};
+  const auto right_for = [&](double to_right, const std::vector<PictureRect>& corners) {
+    const ViewShape shape{16.0 / 9, {{0, 0.1, 1, 1}, corners}};
+    return BesideCorners({0, 0.9, 2.4748}, kStanding, {0, to_right, 0}, Level(), shape).right;
+  };
+  EXPECT_EQ(right_for(0, {legend}), 0);
+  EXPECT_NEAR(right_for(-1.2, {legend}), -0.6579, 2e-4);
+  EXPECT_NEAR(right_for(2.5, {legend}), 0.6948, 2e-4) << "or leave the picture";
+  EXPECT_NEAR(right_for(0.5, {legend, {0.6, 0.6, 1, 1}}), 0.3790, 2e-4);
+  EXPECT_NEAR(right_for(0.5, {legend, {0.4, 0.6, 1, 1}}), 1.1552, 2e-4) << "in their middle";
+  EXPECT_EQ(right_for(-1.2, {}), 0) << "the ground under the camera moves then";
 }
 
 TEST(HeldView, ComesNearerSlowlyAfterTwoSecondsAndMakesRoomAtOnce) {

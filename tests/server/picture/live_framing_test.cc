@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -127,6 +128,38 @@ TEST(LiveFraming, ShowsTheSamePeopleInSnapshotsOfOtherShapes) {
     const render::ViewShape shape = PictureShapes().Of(LiveView(width, height), state);
     const render::Camera camera = controller.AimLive(state, live, shape);
     ExpectFilled(ShownIn(state, camera, width, height), shape.area, 0.45);
+  }
+}
+
+// The camera stands still for a person who walks to and fro: without more, it would stand still for
+// one who walks behind the legend.
+TEST(LiveFraming, KeepsAWalkerBesideTheLegend) {
+  for (const bool is_left : {true, false}) {
+    const render::PictureRect legend =
+        is_left ? render::PictureRect{0, 0.55, 0.3, 1} : render::PictureRect{0.7, 0.55, 1, 1};
+    const render::ViewShape shape{16.0 / 9, {{}, {legend}}};
+    CameraController controller(ParseCamera("front"), {});
+    SceneState state = SceneWith(Posture::kStanding);
+    double least = 1, most = 0, before = 0, fastest = 0, was = 0;
+    constexpr double kInterval = 1.0 / 15, kSpeed = 1.2;  // s, m/s
+    for (double secs = 0; secs < 12; secs += kInterval) {
+      constexpr double kFarthest = 1.5;  // m, to both sides
+      const double y = kFarthest * std::asin(std::sin(M_PI_2 * kSpeed * secs / kFarthest)) / M_PI_2;
+      for (urdf::Pose& link : state.people[0].links) link.position.y() += y - was;
+      was = y;
+      state.stamp_nanos = 5'000'000'000 + std::llround(1e9 * secs);
+      const render::Camera camera = controller.AimLive(state, shape);
+      const render::PictureRect shown = ShownIn(state, camera, 1280, 720);
+      ASSERT_GT(shown.bottom, legend.top) << "else it could walk above the legend";
+      least = std::min(least, shown.left);
+      most = std::max(most, shown.right);
+      const double at = camera.target.y();
+      if (secs > 0) fastest = std::max(fastest, std::abs(at - before) / kInterval);
+      before = at;
+    }
+    EXPECT_GT(least, is_left ? 0.299 : 0.0);
+    EXPECT_LT(most, is_left ? 1.0 : 0.701);
+    EXPECT_LT(fastest, 4) << "m/s: the picture jumps";
   }
 }
 

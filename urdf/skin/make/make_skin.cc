@@ -55,10 +55,12 @@ class EdgeLength {
     near(urdf::kLeftForeArm, {0, 0, 0}, 0.07, 0.12, 0.0085);
     near(urdf::kLeftForeArm, {-0.03, 0, 0}, 0.03, 0.06, 0.0065);
     near(urdf::kLeftUpperArm, {0, 0, 0}, 0.10, 0.20, 0.010);
+    near(urdf::kLeftUpperArm, {0, -0.06, -0.075}, 0.06, 0.12, 0.0080);
     near(urdf::kLeftLowerLeg, {0, 0, 0}, 0.09, 0.16, 0.010);
     near(urdf::kLeftLowerLeg, {0.05, 0, 0}, 0.03, 0.06, 0.0070);
     near(urdf::kLeftUpperLeg, {0, 0, 0}, 0.12, 0.22, 0.012);
     near(urdf::kLeftUpperLeg, {0.08, -0.01, 0}, 0.06, 0.11, 0.0090);
+    near(urdf::kLeftUpperLeg, {-0.06, -0.03, -0.07}, 0.08, 0.14, 0.0095);
     near(urdf::kLeftFoot, {0, 0, -0.05}, 0.16, 0.20, 0.010);
     near(urdf::kHead, {0, 0, 0.08}, 0.16, 0.22, 0.010);
     near(urdf::kHead, {0.10, 0, 0.035}, 0.036, 0.14, 0.0026);

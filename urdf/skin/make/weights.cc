@@ -129,9 +129,11 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
     const Point k = InLink(bind.links[urdf::kLeftLowerLeg], p);
     const Point a = InLink(bind.links[urdf::kLeftFoot], p);
     const Point b = InLink(bind.links[urdf::kLeftToe], p);
-    const double groin = h.dot(Point(0, 0.50, -0.866)), behind = Ramp(0.02, -0.08, p.x());
-    const double beside_midline = Ramp(-0.006, 0.080, p.y() + 1.2 * std::max(0.0, -0.085 - p.z()));
-    f[kPastHip] = Ramp(-0.060 - 0.030 * behind, 0.080 + 0.045 * behind, groin) * beside_midline;
+    const double groin = h.dot(Point(0, 0.50, -0.866)), behind = Ramp(0.02, -0.08, p.x()),
+                 at_side = Ramp(0.09, 0.16, p.y()) * Ramp(0.09, 0.03, p.x()),
+                 wide = std::max(behind, at_side);
+    const double beside_midline = Ramp(-0.060, 0.080, p.y() + 1.2 * std::max(0.0, -0.085 - p.z()));
+    f[kPastHip] = Ramp(-0.060 - 0.030 * wide, 0.080 + 0.045 * wide, groin) * beside_midline;
     f[kAlongThigh] = std::clamp((-t.z() - 0.070) / 0.300, 0.0, 1.0);
     if (p.z() < -0.12) {
       f[kPastKnee] = Ramp(-0.062, 0.062, -k.z());
@@ -298,7 +300,7 @@ VertexWeights WeightsAt(const Point& p, const Fields& f, const Limbs& own,
   const double arm = f[kPastShoulder] + f[kAlongUpperArm] * Ramp(0.90, 1, f[kPastShoulder]) +
                      f[kPastElbow] + f[kAlongForeArm] + f[kPastWrist];
   const double is_past_knee = f[kPastKnee] > 0.99 ? 1 : 0;
-  const double leg = f[kPastHip] + f[kAlongThigh] * Ramp(0.70, 1, f[kPastHip]) + f[kPastKnee] +
+  const double leg = f[kPastHip] + f[kAlongThigh] * Ramp(0.97, 1, f[kPastHip]) + f[kPastKnee] +
                      is_past_knee * (f[kPastAnkle] + f[kPastBall]);
   double trunk = 1;
   if (arm > leg) {
@@ -342,7 +344,7 @@ std::vector<VertexWeights> MakeWeights(const BodySolid& body, const std::vector<
   for (const Point& vertex : vertices) fields.push_back(FieldsAt(body, vertex));
   const Evener even(vertices, triangles);
   constexpr std::pair<std::size_t, int> kRounds[] = {
-      {kPastShoulder, 20}, {kPastHip, 14},      {kGirdle, 20},   {kPastNeck, 6},
+      {kPastShoulder, 32}, {kPastHip, 24},      {kGirdle, 20},   {kPastNeck, 6},
       {kPastHead, 3},      {kAlongUpperArm, 4}, {kPastAnkle, 3}, {kRay, 2},
       {kRay + 1, 2},       {kRay + 2, 2},       {kRay + 3, 2},   {kRay + 4, 2}};
   for (const auto& [field, rounds] : kRounds) even(fields, field, rounds);
