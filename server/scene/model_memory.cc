@@ -53,7 +53,7 @@ std::shared_ptr<const PersonModel> SharedModel(std::shared_ptr<const PersonModel
   if (HasGloves(*model)) return model;
   const std::lock_guard lock(mutex);
   for (const auto& each : newest) {
-    const auto known = each.lock();
+    auto known = each.lock();
     if (known && AreEqual(*known, *model)) return known;
   }
   newest.push_back(model);

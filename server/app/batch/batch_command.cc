@@ -277,6 +277,7 @@ std::vector<FoundResults> ReadAllResults(const BatchOptions& options) {
   }
   if (options.results->empty()) paths = FindResultsOf(*options.list);
   std::vector<FoundResults> all;
+  all.reserve(paths.size());
   for (const std::string& path : paths) all.push_back(ReadResults(path));
   return all;
 }

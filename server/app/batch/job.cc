@@ -53,7 +53,7 @@ json Parse(std::string_view text) {
 
 std::string TextOf(const json& value, const std::string& name, std::size_t most) {
   if (!value.is_string()) throw UsageError(fmt::format("'{}': expected a text", name));
-  const std::string text = value.get<std::string>();
+  std::string text = value.get<std::string>();
   if (text.empty() || text.size() > most || PrintableLine(text) != text) {
     throw UsageError(
         fmt::format("'{}': expected 1 to {} bytes, without control characters", name, most));
@@ -73,7 +73,7 @@ std::map<std::string, std::string> LabelsOf(const json& value) {
 }
 
 std::string CommandOf(const json& value) {
-  const std::string name = TextOf(value, "command", 100);
+  std::string name = TextOf(value, "command", 100);
   const std::vector<std::string> known = CommandsOfJobs();
   for (const std::string& each : known) {
     if (name == each) return name;

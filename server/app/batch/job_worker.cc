@@ -117,6 +117,7 @@ class Worker {
 
   static std::vector<FileStamp> StampsOf(const std::vector<DeclaredOutput>& outputs) {
     std::vector<FileStamp> stamps;
+    stamps.reserve(outputs.size());
     for (const DeclaredOutput& output : outputs) stamps.push_back(StampOf(output));
     return stamps;
   }
