@@ -73,6 +73,7 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
       PublishSampleOfNow();
       const std::size_t known = stamps_.size();
       queue_.callAvailable();
+      DropStampsBefore(start);
       for (std::size_t i = known; i < stamps_.size(); ++i) {
         worst_error_ = std::max(worst_error_, std::abs(stamps_[i] - now));
       }
@@ -84,6 +85,14 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
   double worst_error_ = 0;  // of the last Run(), s
 
  private:
+  // What was still under way when the simulator started over.
+  void DropStampsBefore(double start) {
+    constexpr double kFar = 50;  // s
+    const auto first = std::find_if(stamps_.begin(), stamps_.end(),
+                                    [&](double stamp) { return std::abs(stamp - start) < kFar; });
+    stamps_.erase(stamps_.begin(), first);
+  }
+
   ros::CallbackQueue queue_;
   std::optional<ros::NodeHandle> node_;
   ros::Publisher clock_;
@@ -102,7 +111,8 @@ TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
     EXPECT_GE(stamps.front(), start - 0.1);
     EXPECT_EQ(std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()),
               stamps.end())
-        << "tf2 drops what has the stamp of the transform before";
+        << "tf2 drops what has the stamp of the transform before: "
+        << ::testing::PrintToString(stamps);
   }
 }
 
