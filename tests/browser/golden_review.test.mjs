@@ -126,6 +126,25 @@ test('by buttons, and another review goes on with what is left', async () => {
   await golden('check', '.', '--strict', '--out', 'again');
 });
 
+test('a key that comes before what was decided earlier is known is not lost', async () => {
+  const review = await startReview();
+  const { page, close } = await openPage(review.url);
+  let answer = () => {};
+  const isPressed = new Promise((resolve) => { answer = resolve; });
+  await page.route('**/decisions', async (route) => {
+    if (route.request().method() === 'GET') await isPressed;
+    await route.continue();
+  });
+  await page.reload({ waitUntil: 'commit' });
+  await page.waitForFunction(() => document.readyState === 'complete');
+  await page.keyboard.press('j');
+  await page.keyboard.press('a');
+  answer();
+  await page.waitForFunction(() => document.getElementById('said').textContent.includes('reach: accepted'));
+  await close();
+  await review.end('SIGTERM');
+});
+
 test('a case says why it was not accepted, and the others go on', async () => {
   const review = await startReview();
   const { page, close } = await openPage(review.url);

@@ -164,6 +164,7 @@ const ask = async (path, order) => {
   }
 };
 const finish = async () => {
+  await isRead;
   const said = await ask('end', {});
   if (!said) return;
   if (said.error) return say(said.error, 'failed');
@@ -173,6 +174,7 @@ const finish = async () => {
 };
 const order = async (one, verdict) => {
   const name = one.dataset.name;
+  await isRead;  // who is quicker than that loses no key
   const said = await ask('decisions', { case: name, order: verdict ?? 'undo' });
   if (!said) return false;
   if (said.error) {
@@ -216,7 +218,8 @@ document.getElementById('copy')?.addEventListener('click', () => {
   navigator.clipboard?.writeText(document.getElementById('command').textContent).catch(() => undefined);
 });
 document.getElementById('finish')?.addEventListener('click', finish);
-if (token) ask('decisions').then((said) => { if (said?.error) say(said.error, 'failed'); });
+// Settled when what was decided before is known.
+const isRead = token ? ask('decisions').then((said) => { if (said?.error) say(said.error, 'failed'); }) : Promise.resolve();
 document.addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || cases.length === 0) return;
   const one = cases[at], views = { 1: 'side', 2: 'blink', 3: 'slider', 4: 'heat' };
