@@ -7,9 +7,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/body_sample.h"
 #include "core/duration_histogram.h"
+#include "core/node_clock.h"
 #include "core/playback.h"
 #include "core/scene_marker.h"
 #include "core/system/clocks.h"
@@ -37,6 +39,8 @@ struct SourceCounters {
   /// Of the samples: by how much each came later than the fastest ones of the seconds before, by
   /// the sender's clock. Empty for a source without such a clock.
   DurationHistogram delays;
+  /// Of a ROS graph: the clocks of the nodes whose people are read.
+  std::vector<NodeClock> clocks;
   /// Counters of the transport, such as "receive_buffer_bytes" or "connections_open"; empty without
   /// a transport.
   std::map<std::string, std::uint64_t> transport;

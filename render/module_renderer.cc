@@ -161,7 +161,7 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
   const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format,
                                         format == LayerFormat::kPdfPage ? &below_layer_ : nullptr);
   PaintLinesOf(*painter, views, lifted.spec());
-  overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
+  if (spec.overlays) overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }
 

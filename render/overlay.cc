@@ -152,43 +152,66 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
   if (state.liveness == Liveness::kNoData) PaintNoData(page, state);
 }
 
-void Overlay::PaintLamp(Page& page, const SceneState& state) {
-  Rgb lamp = {0.62, 0.64, 0.67};
+namespace {
+
+struct Lamp {
+  Rgb color = {0.62, 0.64, 0.67};
   std::string text = "NO DATA";
-  char rate[32] = "";
+  std::string rate;
+};
+
+Lamp LampOf(const SceneState& state) {
+  Lamp lamp;
   if (state.liveness == Liveness::kStale) {
-    lamp = kWarningLamp;
-    text = "STALE";
+    lamp.color = kWarningLamp;
+    lamp.text = "STALE";
   } else if (state.liveness == Liveness::kLive) {
     const bool is_file = state.arrival_nanos == 0;
     const bool is_behind = state.waited_nanos > kOverloadNanos;
-    lamp = is_file ? Rgb{0.25, 0.45, 0.75} : is_behind ? kWarningLamp : Rgb{0.10, 0.70, 0.25};
-    text = is_file ? "RECORDED" : is_behind ? "BEHIND" : "LIVE";
+    lamp.color = is_file ? Rgb{0.25, 0.45, 0.75} : is_behind ? kWarningLamp : Rgb{0.10, 0.70, 0.25};
+    lamp.text = is_file ? "RECORDED" : is_behind ? "BEHIND" : "LIVE";
+    char rate[32] = "";
     if (is_behind) {
       std::snprintf(rate, sizeof rate, "  by %.1f s", Secs(state.waited_nanos));
     } else if (state.rate_hz > 0) {
       std::snprintf(rate, sizeof rate, "  %.1f Hz", state.rate_hz);
     }
+    lamp.rate = rate;
   }
+  return lamp;
+}
+
+// Where its text begins.
+double LeftOf(const Lamp& lamp, OverlayPage& page) {
+  const int size = page.FontPx(kTextSize);
+  const double width =
+      page.fonts.bold.Width(lamp.text, size) + page.fonts.regular.Width(lamp.rate, size);
+  return page.width - page.Px(kMargin) - width;
+}
+
+}  // namespace
+
+void Overlay::PaintLamp(Page& page, const SceneState& state) {
+  const Lamp lamp = LampOf(state);
   OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kTextSize);
   if (page.is_small) {
-    page.canvas.Disc(page.width - size, size, 0.36 * size, {lamp, 1});
+    page.canvas.Disc(page.width - size, size, 0.36 * size, {lamp.color, 1});
     return;
   }
-  const double width = f.bold.Width(text, size) + f.regular.Width(rate, size);
-  const double left = page.width - page.Px(kMargin) - width;
-  const double baseline = page.Px(kMargin) + size;
-  page.canvas.Disc(left - 0.8 * size, baseline - 0.36 * size, 0.36 * size, {lamp, 1});
-  const double next = page.canvas.Text(left, baseline, text, f.bold, size, page.inks.text);
-  page.canvas.Text(next, baseline, rate, f.regular, size, page.inks.faint_text);
+  const double left = LeftOf(lamp, page), baseline = page.Px(kMargin) + size;
+  page.canvas.Disc(left - 0.8 * size, baseline - 0.36 * size, 0.36 * size, {lamp.color, 1});
+  const double next = page.canvas.Text(left, baseline, lamp.text, f.bold, size, page.inks.text);
+  page.canvas.Text(next, baseline, lamp.rate, f.regular, size, page.inks.faint_text);
 }
 
 void Overlay::PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec) {
   if (spec.title.empty()) return;
   const int size = page.FontPx(kTitleSize);
   const bool is_beside_lamp = spec.parts.status && !HasOnlyRobots(state);
-  const double room = is_beside_lamp ? 0.6 * page.width : page.right() - page.Px(kMargin);
+  const double end =
+      is_beside_lamp ? LeftOf(LampOf(state), page) - 2 * page.FontPx(kTextSize) : page.right();
+  const double room = end - page.Px(kMargin);
   const std::string line = Shorten(spec.title, page.fonts.bold, size, room);
   page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, page.fonts.bold, size,
                    page.inks.text);

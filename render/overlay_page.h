@@ -76,6 +76,8 @@ struct OverlaySizes {
     const double spread_size = kSmallSize + spread * (at_720 - kSmallSize);
     return std::max(8, static_cast<int>(std::lround(Px(spread_size))));
   }
+  /// Of numbers at axes. In print they are as large as the smallest text that was asked for.
+  int AxisFontPx() const { return std::max(8, FontPx(kSmallSize) - (spread < 1 ? 0 : 2)); }
   double right() const { return width - Px(kMargin); }
 };
 

@@ -111,7 +111,7 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
                    {ColorOf(load_class), 1});
 
   PaintBands(page, frame);
-  const int small = std::max(8, size - 2);
+  const int small = page.AxisFontPx();
   if (has_scale && frame.height >= 3 * small) {  // lower ones have no room for a text and a curve
     char text[32];
     std::snprintf(text, sizeof text, "%.0f %%", 100 * frame.top_ratio);
@@ -187,7 +187,7 @@ void PaintPlot(OverlayPage& page, const LoadCurves& loads,
     PaintRow(page, frame, loads.curves[i], now_secs, i == 0);
   }
   const double baseline = frame.top + frame.height + 0.95 * size;
-  const int small = std::max(8, size - 2);
+  const int small = page.AxisFontPx();
   const std::string from = SecsText(loads.from_secs), to = SecsText(loads.to_secs);
   page.canvas.Text(frame.left, baseline, from, page.fonts.regular, small, page.inks.faint_text);
   const double to_left = frame.left + frame.width - page.fonts.regular.Width(to, small);

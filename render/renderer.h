@@ -133,10 +133,10 @@ class Renderer {
   void RenderInto(Image& image, const SceneState& state, const Camera& camera,
                   const PictureSpec& spec);
 
-  /// The overlays and lines of the picture rendered last, alone and as vectors, in its size (SVG:
-  /// px; PDF: 96 px per inch). Pass the arguments of that picture; the layer is made whether or not
-  /// view.overlays is set. Equal arguments give equal bytes. With LayerFormat::kPdfPage the picture
-  /// is rendered again, without overlays and lines.
+  /// The overlays (if spec.overlays is set) and lines of the picture rendered last, alone and as
+  /// vectors, in its size (SVG: px; PDF: 96 px per inch). Pass the arguments of that picture, which
+  /// may have been rendered without overlays and lines. Equal arguments give equal bytes. With
+  /// LayerFormat::kPdfPage the picture is rendered again, without overlays and lines.
   std::string OverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                            LayerFormat format);
 

@@ -60,6 +60,11 @@ export class Alarms {
     return this.#log.filter(({ began }) => began.micros > micros - RECENT_MICROS).length;
   }
 
+  /** Of another server the log is another one, although its alarms may look the same. */
+  forget() {
+    this.#loaded = '';
+  }
+
   /** Loads the log if it has changed; call it several times a second.
    *  @param {number} now  ms
    *  @returns {Promise<void>} */

@@ -53,6 +53,8 @@ let model = null;
 let modelAskedAt = -Infinity;
 let classLimits = '';  // as they are shown
 let hasDiagnostics = false;
+/** @type {number|undefined} */
+let serverStarted;  // µs since 1970
 let unsettledAt = 0;  // browser clock, last time that something was still to come
 let notice = { text: '', until: 0 };
 const linked = shownIn(new URL(location.href));
@@ -79,7 +81,7 @@ const loadRole = mountRole(elements.role, showNotice);
 const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new KinescopeClient({  // without onState: of the states between two frames, only the last one is decoded
-  onPicture: ({ jpeg }) => picture.show(jpeg),
+  onPicture: (live) => picture.show(live),
   onPast: (past) => shown.onPast(past),
   onDetails(details) {
     shown.setNewestDetails(details);
@@ -96,7 +98,10 @@ const connection = new KinescopeClient({  // without onState: of the states betw
     shown.onConnected();
     picture.ask();
     controls.forget();
-    loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));
+    loadRole().then((started) => {
+      controls.setViewer(elements.role.dataset.role === 'viewer');
+      meetServer(started);
+    });
     loadCameras();
   },
 });
@@ -122,7 +127,9 @@ const marks = new Marks(() => {
 const markPad = new MarkPad({
   pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
-}, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' }, keys);
+}, marks, shown, {
+  notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer', stateInView: () => (scene === null ? picture.state : null),
+}, keys);
 const controls = new Controls(elements, shown, showNotice);
 const alarms = new Alarms();
 const alarmPanel = new AlarmPanel({
@@ -176,6 +183,24 @@ function makeScene() {
     elements.picture.classList.add('in-stage');
     return null;
   }
+}
+
+/** A server that was started again has other moments, and other bodies, marks and alarms under the same numbers.
+ *  @param {number|undefined} started  µs since 1970; undefined: not known */
+function meetServer(started) {
+  const isOther = serverStarted !== undefined && started !== undefined && started !== serverStarted;
+  serverStarted = started ?? serverStarted;
+  if (!isOther) return;
+  showNotice(`The server restarted${shown.time.isLive ? '' : ': the moment that you looked at is gone'}`);
+  model = null;
+  picture.forget();
+  scene?.forget();
+  charts.forget();
+  marks.forgetRevision();
+  alarms.forget();
+  latencies.clear();
+  shown.time.goLive();
+  shown.onTimeChanged();
 }
 
 /** On a phone, what the header has no room for is a panel, in reach of a thumb.
@@ -269,8 +294,12 @@ function updateScene() {
   if (shown.state) scene?.update(shown.state, wasFresh());
 }
 
+/** What the server's picture shows of a viewer who looks back. */
+const formerNow = () => (shown.isNewest || shown.state === null ? null
+  : { state: shown.state.stateNumber, isPlaying: shown.time.isPlaying });
+
 function onTimeChanged() {
-  picture.setNewest(shown.isNewest);
+  picture.setMoment(formerNow(), performance.now());
   if (!shown.isNewest) latencies.clear();
   updateScene();
   showReadings();
@@ -416,6 +445,7 @@ function showReadings() {
   stream.show(now, ageMillisAt(now), connection.clock.at(now));
   charts.update(now);
   picture.setSeen(elements['picture-frame'].clientWidth > 0);
+  picture.setMoment(formerNow(), now);
   picture.setLost(status.level === 'disconnected' ? 'The server does not answer' : '');
   loadMarks(now);
   markPad.update(now);
@@ -443,8 +473,9 @@ function showReadings() {
 function showSettled(now) {
   const { marks_revision: marksRevision } = shown.newestDetails, { surroundings } = shown.details;
   const isAtRest = connection.connected && now >= notice.until && shown.isAtRest && !lacksModelOf(shown.state) && cameras.isKnown
-    && scene?.isAtRest(surroundings) !== false && charts.isComplete && marks.isAt(marksRevision) && alarms.isComplete
-    && controls.isComplete && stream.isKnown && hasDiagnostics && elements.role.dataset.role !== undefined;
+    && scene?.isAtRest(surroundings) !== false && picture.isAt(shown.state?.stateNumber) && charts.isComplete
+    && marks.isAt(marksRevision) && alarms.isComplete && controls.isComplete && stream.isKnown && hasDiagnostics
+    && elements.role.dataset.role !== undefined;
   if (!isAtRest) unsettledAt = now;
   document.body.toggleAttribute('data-settled', now - unsettledAt >= SETTLED_MILLIS);
 }
@@ -452,7 +483,7 @@ function showSettled(now) {
 /** @param {import('./status.js').Status} status
  *  @param {number} now */
 function showStatus(status, now) {
-  const banner = (now < notice.until && notice.text) || status.banner || leftOutText(shown.newestDetails.left_out)
+  const banner = (now < notice.until && notice.text) || status.banner || stream.clockText || leftOutText(shown.newestDetails.left_out)
     || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);

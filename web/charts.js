@@ -36,6 +36,14 @@ export class Charts {
     }, page.canPress ? (name) => this.plots.toggle(name) : null);
   }
 
+  /** The moments of another server are others. */
+  forget() {
+    this.strip.forget();
+    this.plots.forget();
+    this.#people = [];
+    this.#clock = new WallClock();
+  }
+
   /** Whether strip and plots show all that there is. */
   get isComplete() {
     return this.#feed.isComplete;

@@ -11,12 +11,15 @@ const MOST_LINES = 12;
  *  @param {string[]} notShown  what its 3-D view does not show as it should
  *  @returns {string[]} */
 export function problemLines(diagnostics, failedMeshes, notShown = []) {
-  const { pictures, source } = diagnostics;
+  const { pictures, source, stream } = diagnostics;
   const lines = [];
   if (pictures?.last_error) lines.push(`Server rendering: ${pictures.last_error}`);
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
   for (const problem of notShown) lines.push(`Missing or replaced in the 3-D view: ${problem}`);
+  for (const { warning } of stream?.clocks ?? []) {
+    if (warning !== '') lines.push(`${warning[0].toUpperCase()}${warning.slice(1)}.`);
+  }
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;

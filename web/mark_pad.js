@@ -16,18 +16,21 @@ const SAID_MILLIS = 6000;  // that Undo is offered
 export class MarkPad {
   #saidUntil = -Infinity;
   #drawn = '';
+  /** @type {readonly Mark[]} */ #listed = [];  // marks of the list that is drawn
 
   /** @param {Parts} parts
    *  @param {import('./marks.js').Marks} marks
    *  @param {import('./shown.js').Shown} shown
-   *  @param {{notice: (text: string) => void, isViewer: () => boolean}} page
+   *  @param {{notice: (text: string) => void, isViewer: () => boolean, stateInView: () => number|null}} page  stateInView:
+   *    number of the state in the picture that takes the place of the view; null: the view shows the state of the page
    *  @param {import('./keys.js').Keys} keys */
-  constructor(parts, marks, shown, { notice, isViewer }, keys) {
+  constructor(parts, marks, shown, { notice, isViewer, stateInView }, keys) {
     this.parts = parts;
     this.marks = marks;
     this.shown = shown;
     this.notice = notice;
     this.isViewer = isViewer;
+    this.stateInView = stateInView;
     parts.form.addEventListener('submit', (event) => {
       event.preventDefault();
       const text = parts.text.value.trim();
@@ -76,7 +79,7 @@ export class MarkPad {
       return false;
     }
     try {
-      const mark = await send(state.stateNumber);
+      const mark = await send(this.stateInView() ?? state.stateNumber);
       if (mark === null) this.#say(waitText(this.marks.waiting));
       else this.#say(`${doneText(mark)}${seenText(mark)}`);
       return true;
@@ -145,9 +148,10 @@ export class MarkPad {
     if (marks.waiting > 0) this.#say(waitText(marks.waiting));
     if (now > this.#saidUntil && parts.said.textContent !== '') parts.said.textContent = '';
     const list = marks.list(), { recording } = shown.newestDetails;
-    const drawn = JSON.stringify([marks.names, recording?.start_micros, this.isViewer(), list]);
-    if (drawn === this.#drawn) return;
+    const drawn = JSON.stringify([marks.names, recording?.start_micros, this.isViewer()]);
+    if (drawn === this.#drawn && list === this.#listed) return;
     this.#drawn = drawn;
+    this.#listed = list;
     this.#showButtons();
     parts.earlier.hidden = list.length <= MOST_LISTED;
     parts.earlier.textContent = `${list.length - MOST_LISTED} earlier marks are in the file`;

@@ -34,6 +34,7 @@ export const symbolOf = ({ button, kind }) => (button > 0 ? String(button) : { m
 
 export class Marks {
   /** @type {Map<number, Mark>} */ #marks = new Map();  // by id; without those that were removed
+  /** @type {Mark[]|null} */ #sorted = null;  // null: they have changed
   #revision = -1;  // of what is here; -1: nothing was loaded yet
   #runMicros = 0;  // of the server whose marks are here
   #isLoading = false;
@@ -58,10 +59,12 @@ export class Marks {
     }
   }
 
-  /** In the order of their moments; those of earlier runs of the server first.
-   *  @returns {Mark[]} */
+  /** In the order of their moments; those of earlier runs of the server first. Another list after each change.
+   *  @returns {readonly Mark[]} */
   list() {
-    return [...this.#marks.values()].sort((a, b) => a.run_micros - b.run_micros || a.at.micros - b.at.micros || a.id - b.id);
+    this.#sorted ??= [...this.#marks.values()]
+      .sort((a, b) => a.run_micros - b.run_micros || a.at.micros - b.at.micros || a.id - b.id);
+    return this.#sorted;
   }
 
   /** Whether the server may still have the moment of the mark: it was set since the server was started.
@@ -80,6 +83,11 @@ export class Marks {
    *  @param {number} button */
   openSpan(button) {
     return this.list().filter((mark) => mark.is_open && mark.button === button && this.isOfThisRun(mark)).at(-1) ?? null;
+  }
+
+  /** Another server may have come to the same revision by other changes. */
+  forgetRevision() {
+    this.#revision = -1;
   }
 
   /** @param {number|null} revision  of the server; null: it has no marks */
@@ -201,12 +209,14 @@ export class Marks {
 
   /** @param {Mark} mark */
   #put(mark) {
+    this.#sorted = null;
     if (mark.is_removed) this.#marks.delete(mark.id);
     else this.#marks.set(mark.id, mark);
   }
 
   /** @param {number} runMicros */
   #forget(runMicros) {
+    this.#sorted = null;
     this.#marks.clear();
     this.#mine = [];
     this.#revision = -1;

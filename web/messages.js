@@ -119,13 +119,21 @@ const readDetails = object({
  *  @typedef {ReturnType<typeof readDetails>} Details */
 
 const readStreamEvents = { count: number, count_10s: number, last_micros: numberOrNull };
+const readNodeClock = object({
+  node: string, offset_ms: numberOrNull, uncertainty_ms: numberOrNull, delay_ms: numberOrNull, most_delay_ms: numberOrNull,
+  lag_ms: number, most_lag_ms: number, excess_ms: number, warning: string,
+});
 const readStream = object({
   samples: number, lost: number, loss_10s: numberOrNull, loss: numberOrNull, jitter_ms: numberOrNull,
-  gaps: object(readStreamEvents), incomplete: object(readStreamEvents),
+  gaps: object(readStreamEvents), incomplete: object(readStreamEvents), clock_steps: optional(object(readStreamEvents)),
   rejected: listOf(object({ ...readStreamEvents, reason: string })),
+  clocks: listOf(readNodeClock),
 });
 /** @typedef {{count: number, count_10s: number, last_micros: number|null}} StreamEvents  in all, in the last 10 s, and
  *    when last, in µs of the server's clock; null: never
+ *  @typedef {ReturnType<typeof readNodeClock>} NodeClock  of a ROS node whose people are read: its clock minus that of the
+ *    server and the delay, both null where the node does not tell its time; else from its stamps to their arrival; by how much its
+ *    stamps are ahead so that none goes back
  *  @typedef {ReturnType<typeof readStream>} StreamHealth  losses as shares of the samples that were lost or
  *    incomplete; null: no samples */
 
@@ -254,11 +262,14 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
   source: optional(object({ left_out: optional(listOf(readLeftOut)) })),
+  stream: optional(orNull(object({ clocks: listOf(readNodeClock) }))),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 
-/** /api/v1/session: what this client may do, and the subprotocol of the WebSocket. */
-export const readSession = object({ role: oneOf(/** @type {const} */ (['viewer', 'operator'])), socket: string });
+/** /api/v1/session: what this client may do, the subprotocol of the WebSocket, and when the server was started. */
+export const readSession = object({
+  role: oneOf(/** @type {const} */ (['viewer', 'operator'])), socket: string, started_micros: optional(number),
+});
 
 /** The answer to any rejected request. */
 export const readRejection = object({ error: string });

@@ -37,6 +37,12 @@ export class People {
     for (const { human } of this.#people.values()) human.setLook(look);
   }
 
+  /** All bodies. */
+  clear() {
+    for (const { human } of this.#people.values()) human.dispose();
+    this.#people.clear();
+  }
+
   /** Whether any person is drawn as a skin. */
   get hasSkins() {
     return [...this.#people.values()].some(({ human }) => human.hasSkin);

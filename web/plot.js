@@ -1,6 +1,7 @@
 // One plot of values over time, drawn by uPlot: lines with names and dashes, class bands, limits, gaps, and a playhead
 // that the other plots and the 3-D view share. Click or drag moves the viewer's time; hovering shows the values.
 import uPlot from 'uplot';
+import { flagsApart } from './flags.js';
 import { GAP_MICROS } from './series.js';
 import { clockText } from './strip.js';
 
@@ -249,9 +250,7 @@ export class Plot {
     ctx.fillStyle = this.#color('quiet');
     ctx.font = `700 ${10 * pxRatio}px ${getComputedStyle(this.box).fontFamily}`;
     ctx.textBaseline = 'top';
-    for (const { micros, endMicros, label } of this.#flags) {
-      const end = endMicros ?? micros;
-      if (end < from || micros > to) continue;
+    for (const { micros, endMicros, label } of flagsApart(this.#flags, { from, to }, xOf)) {
       const left = Math.max(bbox.left, xOf(micros));
       if (endMicros !== null) ctx.fillRect(left, bbox.top, Math.min(bbox.left + bbox.width, xOf(endMicros)) - left, 2 * pxRatio);
       if (micros < from) continue;

@@ -273,6 +273,11 @@ export class Plots {
     return this.#series ? [{ series: this.#series, from, to }] : [];
   }
 
+  forget() {
+    this.#series = null;
+    this.#drawn = '';
+  }
+
   /** @param {import('./plot.js').Flag[]} flags  of all marks whose moments may be shown */
   setFlags(flags) {
     this.#flags = flags;

@@ -26,17 +26,20 @@ function setGates(page, role) {
 
 /** @param {HTMLElement} text  shows the role
  *  @param {(notice: string) => void} showNotice
- *  @returns {() => Promise<void>} asks the server for the role; call it after each connection */
+ *  @returns {() => Promise<number|undefined>} asks the server for the role; call it after each connection. It returns when
+ *    the server was started; undefined: not known */
 export function mountRole(text, showNotice) {
   return async () => {
     try {
       const session = await ask('api/v1/session', readSession);
-      if (session === null) return;
+      if (session === null) return undefined;
       text.textContent = roleText(session.role);
       text.dataset.role = session.role;
       setGates(document, session.role);
+      return session.started_micros;
     } catch (error) {
       showNotice(`Could not load the role of this page: ${messageOf(error)}`);
+      return undefined;
     }
   };
 }

@@ -8,6 +8,7 @@ import { LiveCamera } from './live_camera.js';
 import { ObjectMarkers } from './objects.js';
 import { placeText, shifted, turned, zoomed } from './orbit.js';
 import { People } from './people.js';
+import { Quality, REST_MILLIS } from './quality.js';
 import { Surroundings } from './surroundings.js';
 import { theme } from './theme.js';
 import { Trails } from './trails.js';
@@ -16,8 +17,6 @@ const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a wal
 // Until the server has sent its cameras.
 const START_POSITION = [3.6, -2.8, 2.2];
 const START_TARGET = [0, 0, 1];
-const SLOW_FRAME_MILLIS = 45;
-const FRAMES_MEASURED = 24;
 const HEAD = 6;  // number of its link
 const HEAD_TOP = 0.3;  // m above its joint, with some air
 const DISTANCES = { least: 0.6, most: 30 };  // m, from the target
@@ -50,8 +49,9 @@ export class Scene {
   #isSeen = true;
   #dirty = true;
   #lastFrameAt = 0;
-  #frameMillis = /** @type {number[]} */ ([]);
-  #quality = 0;  // number of reductions of quality on a slow machine
+  #drawnAt = 0;
+  #drawnReductions = 0;  // of the frame that is seen
+  #quality = new Quality(new URLSearchParams(location.search).has('quality'));
 
   /** @param {HTMLElement} host  filled with a canvas
    *  @param {HTMLElement[]} overlays  what lies over it, which people should not be under
@@ -92,6 +92,14 @@ export class Scene {
     this.#aim();
     this.#people.setModels(model.people.filter((person) => !isGhost(person)), model.palette, this.#markers);
     this.#ghosts.setModels(model.people.filter(isGhost), model.palette, this.#markers);
+    this.#dirty = true;
+  }
+
+  /** Another server has other bodies and markers under the same revisions. */
+  forget() {
+    this.#people.clear();
+    this.#ghosts.clear();
+    this.#surroundings.forget();
     this.#dirty = true;
   }
 
@@ -253,7 +261,7 @@ export class Scene {
   /** Whether it stays as it is drawn until another state comes.
    *  @param {number|null} surroundings  revision of those that are to be shown */
   isAtRest(surroundings) {
-    const isDrawn = !this.#isSeen || (!this.#dirty && !this.#isFollowing);
+    const isDrawn = !this.#isSeen || (!this.#dirty && !this.#isFollowing && this.#drawnReductions === 0);
     return isDrawn && this.#people.isComplete && this.#ghosts.isComplete && this.#surroundings.isAt(surroundings);
   }
 
@@ -265,10 +273,13 @@ export class Scene {
     this.#follow(elapsed / 1000);
     this.controls.update();
     this.#lastFrameAt = now;
-    if (!this.#dirty || !this.#isSeen) return false;
+    const isToBeRefined = this.#drawnReductions > 0 && now - this.#drawnAt >= REST_MILLIS;
+    if (!(this.#dirty || isToBeRefined) || !this.#isSeen) return false;
+    if (this.#dirty) this.#quality.measure(elapsed);
+    this.#reduce(this.#dirty ? this.#quality.reductions : 0);
     this.#dirty = false;
+    this.#drawnAt = now;
     this.#takePlace();
-    this.#adaptQuality(elapsed);
     this.#people.pose(this.renderer);
     this.#ghosts.pose(this.renderer);
     this.renderer.render(this.#scene, this.#camera);
@@ -360,23 +371,14 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** Reduces the quality in steps on a slow machine, to keep a useful frame rate.
-   *  @param {number} elapsed  since the last frame, ms */
-  #adaptQuality(elapsed) {
-    if (elapsed > 500) return;  // the view was idle or hidden, not slow
-    this.#frameMillis.push(elapsed);
-    if (this.#frameMillis.length < FRAMES_MEASURED) return;
-    const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_MEASURED / 2];
-    this.#frameMillis = [];
-    if (median < SLOW_FRAME_MILLIS || this.#quality >= 3) return;
-    this.#quality += 1;
-    if (this.#quality === 1) this.renderer.setPixelRatio(1);
-    if (this.#quality === 2) {
-      this.#sun.castShadow = false;
-      this.#shade.visible = false;
-    }
-    if (this.#quality === 3) this.renderer.setPixelRatio(0.7);
-    this.#resize();
+  /** Draws with so many reductions of quality, of which each saves time.
+   *  @param {number} count */
+  #reduce(count) {
+    if (count === this.#drawnReductions) return;
+    this.#drawnReductions = count;
+    this.#sun.castShadow = count < 2;
+    this.#shade.visible = count < 2;
+    this.renderer.setPixelRatio(count >= 3 ? 0.7 : count >= 1 ? 1 : Math.min(devicePixelRatio, 2));
   }
 }
 
@@ -417,7 +419,7 @@ function gridGeometry(half, step) {
 /** Whether WebGL is rendered in software (in a virtual machine, on a remote desktop). Antialiasing and shadows would
  *  then cost most of the frame rate. */
 function drawsInSoftware() {
-  if (new URLSearchParams(location.search).get('quality') === 'fine') return false;  // for screenshots
+  if (new URLSearchParams(location.search).get('quality') === 'fine') return false;  // for screenshots of documents
   const gl = document.createElement('canvas').getContext('webgl2');
   const info = gl?.getExtension('WEBGL_debug_renderer_info');
   const name = String(gl?.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER) ?? '');

@@ -4,6 +4,7 @@ import { age, latency } from './format.js';
 
 /** @typedef {import('./messages.js').StreamHealth} StreamHealth
  *  @typedef {import('./messages.js').StreamEvents} StreamEvents
+ *  @typedef {import('./messages.js').NodeClock} NodeClock
  *  @typedef {{name: string, recent: string, all: string, last: string, isRecent: boolean}} Row  isRecent: a problem of
  *    the last 10 s */
 
@@ -70,6 +71,46 @@ const eventRow = (name, events, serverNow) => ({
   isRecent: events.count_10s > 0,
 });
 
+/** 2980 -> "2.98 s".
+ *  @param {number} millis */
+function timeText(millis) {
+  const size = Math.abs(millis);
+  if (size < 999.5) return latency(size);
+  return size < 120_000 ? `${(size / 1000).toFixed(2)} s` : age(size / 1000);
+}
+
+/** "2.98 s ± 1.2 ms behind", and "equal ± 1.2 ms" for a difference within the uncertainty.
+ *  @param {number} millis  of a clock minus that of the server
+ *  @param {number|null} uncertainty */
+function offsetText(millis, uncertainty) {
+  const within = uncertainty === null ? '' : ` ± ${timeText(uncertainty)}`;
+  if (uncertainty !== null && Math.abs(millis) <= uncertainty) return `equal${within}`;
+  return `${timeText(millis)}${within} ${millis < 0 ? 'behind' : 'ahead'}`;
+}
+
+/** @param {number} least  ms
+ *  @param {number} most  ms */
+function rangeText(least, most) {
+  const from = timeText(least), to = timeText(most);
+  const minus = least <= -0.05 ? '−' : '';
+  return minus === '' && from === to ? from : `${minus}${from} to ${most <= -0.05 ? '−' : ''}${to}`;
+}
+
+/** @param {NodeClock} clock
+ *  @returns {Row[]} */
+function clockRows(clock) {
+  const row = (/** @type {string} */ name, /** @type {string} */ recent, isRecent = false) =>
+    ({ name, recent, all: '–', last: '–', isRecent });
+  const differs = clock.warning !== '';
+  if (clock.offset_ms === null || clock.delay_ms === null) {
+    return [row(`Stamp to arrival, ${clock.node}`, rangeText(clock.lag_ms, clock.most_lag_ms), differs)];
+  }
+  return [
+    row(`Clock of ${clock.node}`, offsetText(clock.offset_ms, clock.uncertainty_ms), differs),
+    row(`Delay from ${clock.node}`, rangeText(clock.delay_ms, clock.most_delay_ms ?? clock.delay_ms)),
+  ];
+}
+
 /** @param {StreamHealth} stream
  *  @param {number|null} ageMillis  of the newest sample; null: not known
  *  @param {number|null} serverNow  ms
@@ -88,12 +129,31 @@ export function streamRows(stream, ageMillis, serverNow) {
     eventRow('Incomplete', stream.incomplete, serverNow),
     { name: 'Jitter', recent: latency(stream.jitter_ms), all: '–', last: '–', isRecent: false },
     { name: 'Age', recent: ageMillis === null ? '–' : ageText(ageMillis), all: '–', last: '–', isRecent: false },
+    ...(stream.clock_steps?.count ? [eventRow('Clock of the server set', stream.clock_steps, serverNow)] : []),
+    ...stream.clocks.flatMap(clockRows),
     ...(refused.length > 0 ? refused : [none]),
   ];
 }
 
+/** @param {StreamEvents|undefined} steps  of the server's clock
+ *  @returns {string} what the banner says for ten seconds; '' */
+export const clockText = (steps) => (steps !== undefined && steps.count_10s > 0
+  ? 'The clock of the server was set: samples and marks have the new time of day from now on' : '');
+
 /** @param {number} millis */
 const ageText = (millis) => (millis < 1000 ? latency(Math.max(0, millis)) : age(millis / 1000));
+
+/** Of those that differ: "clock of /bridge_a 2.98 s behind".
+ *  @param {NodeClock[]} clocks */
+function clocksText(clocks) {
+  const wrong = clocks.filter(({ warning }) => warning !== '');
+  if (wrong.length === 0) return '';
+  const [{ node, offset_ms: offset, lag_ms: lag, excess_ms: excess }] = wrong;
+  if (wrong.length > 1) return `${wrong.length} clocks differ`;
+  // Of stamps alone, it may be the network.
+  if (offset === null) return `stamps of ${node} ${offsetText(-lag, null)}`;
+  return `clock of ${node} ${offsetText(offset, null)}${excess > 0 ? ', its stamps slowed down' : ''}`;
+}
 
 /** In one line: "0.0 % lost · jitter 0.8 ms".
  *  @param {StreamHealth} stream */
@@ -103,5 +163,6 @@ export function streamLine(stream) {
     stream.loss_10s === null ? 'no samples in 10 s' : `${lossText(stream.loss_10s)} lost`,
     stream.jitter_ms === null ? '' : `jitter ${latency(stream.jitter_ms)}`,
     refused > 0 ? `${countText(refused)} refused` : '',
+    clocksText(stream.clocks),
   ].filter(Boolean).join(' · ');
 }

@@ -1,5 +1,5 @@
 // The panel "Stream": one line always, and a table when it is opened.
-import { LossAlarm, streamLine, streamRows } from './stream_health.js';
+import { clockText, LossAlarm, streamLine, streamRows } from './stream_health.js';
 
 /** @typedef {import('./messages.js').StreamHealth} StreamHealth
  *  @typedef {{details: HTMLDetailsElement, line: HTMLElement, rows: HTMLTableSectionElement}} Parts */
@@ -20,6 +20,11 @@ export class StreamPanel {
   /** Whether the server has told how the stream is. */
   get isKnown() {
     return this.#stream !== null;
+  }
+
+  /** For the banner: the time of day was another one a moment ago; ''. */
+  get clockText() {
+    return clockText(this.#stream?.clock_steps);
   }
 
   /** @param {StreamHealth} stream */

@@ -1,6 +1,7 @@
 // The strip of time: all moments that the server keeps, its right end is now. Per person each 2 px show the worst class
 // of their samples, told by height besides colour: low is a base line, medium 22 to 60 % of the row by the number of
 // joints, high the whole row, unknown hatched. Below are lost samples and gaps, and the clock.
+import { flagsApart } from './flags.js';
 import { Series } from './series.js';
 import { theme } from './theme.js';
 
@@ -91,6 +92,11 @@ export class Strip {
   setAlarms(alarms) {
     if (JSON.stringify(alarms.map(signOf)) === JSON.stringify(this.#alarms.map(signOf))) return;
     this.#alarms = alarms;
+    this.#drawn = '';
+  }
+
+  forget() {
+    this.#series.clear();
     this.#drawn = '';
   }
 
@@ -347,13 +353,13 @@ class Painter {
     this.#label('Marks', MARKS_PX / 2);
     context.font = `700 11px ${this.font}`;
     context.textAlign = 'center';
-    for (const { micros, endMicros, label } of marks) {
-      if (endMicros !== null && endMicros > when.oldest) {
+    for (const { micros, endMicros, label } of flagsApart(marks, { from: when.oldest, to: when.newest }, xOf)) {
+      if (endMicros !== null) {
         const from = Math.max(xOf(micros), xOf(when.oldest));
         this.#use('quiet');
         context.fillRect(from, MARKS_PX - 4, Math.max(2, xOf(endMicros) - from), 3);
       }
-      if (micros < when.oldest || micros > when.newest) continue;
+      if (micros < when.oldest) continue;
       const x = Math.round(xOf(micros)), text = [...label].slice(0, 2).join('') || '•';
       this.#use('quiet');
       context.fillRect(x - 1, 1, 2, MARKS_PX - 1);

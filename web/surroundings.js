@@ -47,6 +47,11 @@ export class Surroundings {
     this.#load(revision);
   }
 
+  /** What is shown, and what is on its way. */
+  forget() {
+    this.#show(null, null, []);
+  }
+
   /** Whether those of the server are shown.
    *  @param {number|null} revision */
   isAt(revision) {

@@ -59,7 +59,8 @@ Reading ReadingOf(const Rule& rule, const SceneState& state, const PersonState& 
       if (!is_live || !person.forces.lumbar) return {};
       return {person.forces.lumbar->compression, std::nullopt};
     case Quantity::kMargin:
-      if (!is_live) return {};
+      // A chair or a wall holds people whose margin says that they fall.
+      if (!is_live || person.forces.external_contact_suspected) return {};
       return {person.forces.margin_of_stability, std::nullopt};
     default: return WorstOf(rule, person, joint_of_alarm);
   }

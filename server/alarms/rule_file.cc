@@ -26,13 +26,13 @@ const char* const kDefaultRules = R"(rules:
     for: 0.5
     priority: high
   - name: high load
-    value: class
-    at_least: high
-    for: 2
+    value: ratio
+    above: 0.66
+    for: 1
   - name: unsteady
     value: margin
     below: -0.10
-    for: 0.4
+    for: 1
   - name: losing data
     value: loss
     above: 0.02

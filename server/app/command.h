@@ -40,7 +40,8 @@ struct Command {
   std::function<int(options::OptionList& options)> run;
   /// What `run` would write, for callers that must know before. @throws UsageError as `run` would.
   std::function<std::vector<DeclaredOutput>()> outputs;
-  std::string failure;  // what exit code 1 means: "no load is known"
+  std::string failure;          // what exit code 1 means: "no load is known"
+  bool shows_progress = false;  // it has the option --progress
   /// Instead of `run`, for a command that also takes options that are not its own: the words of the
   /// command line that it does not know, in their order.
   std::function<int(const std::vector<std::string>& words)> run_with_words;

@@ -18,6 +18,7 @@
 #include "core/system/words.h"
 #include "server/app/command.h"
 #include "server/app/print.h"
+#include "server/app/progress.h"
 #include "server/options/yaml_options.h"
 
 namespace kinescope::app {
@@ -110,11 +111,32 @@ void AddOption(CLI::App& app, OptionList& list, Option& option, const std::strin
   if (is_hidden || !option.group.empty()) added->group(is_hidden ? "" : option.group);
 }
 
+// No option of the command's own: what it makes does not depend on it.
+void AddProgress(CLI::App& app, ProgressForm& form) {
+  app.add_option_function<std::string>(
+         "--progress",
+         [&form](const std::string& text) {
+           options::Choice<ProgressForm> choice{{{"auto", ProgressForm::kAuto},
+                                                 {"json", ProgressForm::kJson},
+                                                 {"off", ProgressForm::kOff}},
+                                                ProgressForm::kAuto};
+           options::OptionList list;
+           list("progress", choice, "");
+           list.Set(*list.begin(), "progress", {text}, Channel::kCommandLine);
+           form = *choice;
+         },
+         Wrapped("progress on standard error: a line on a terminal, or a line of JSON each second "
+                 "for programs [auto, json or off]"))
+      ->type_name("")
+      ->default_str("auto");
+}
+
 // A command as CLI11 sees it. The Command stays where it is.
 struct Registered {
   Command* command;
   CLI::App* app;
   std::shared_ptr<std::string> config;
+  std::shared_ptr<ProgressForm> progress;
 };
 
 void Register(Command& command, CLI::App& parent, std::vector<Registered>& all) {
@@ -135,7 +157,9 @@ void Register(Command& command, CLI::App& parent, std::vector<Registered>& all) 
     app.add_option("--config", *config, "YAML file of options, one `name: value` per line")
         ->type_name("");
   }
-  all.push_back({&command, &app, config});
+  const auto progress = std::make_shared<ProgressForm>(ProgressForm::kAuto);
+  if (command.shows_progress) AddProgress(app, *progress);
+  all.push_back({&command, &app, config, progress});
   if (!command.parts.empty() && command.run == nullptr) app.require_subcommand(1);
   for (Command& part : command.parts) Register(part, app, all);
 }
@@ -251,6 +275,7 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   Command& command = *chosen.command;
   if (!chosen.config->empty()) options::YamlOptions(*chosen.config).SetAll(command.options);
   CheckIsComplete(command);
+  SetProgressForm(*chosen.progress);
   for (const std::string& warning : command.options.warnings()) spdlog::warn(warning);
   if (command.run_with_words != nullptr) return command.run_with_words(chosen.app->remaining());
   return command.run(command.options);

@@ -4,9 +4,10 @@ namespace kinescope::app {
 
 std::vector<Command> AllCommands() {
   std::vector<Command> commands;
-  for (const auto make : {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, ConvertCommand,
-                          GoldenCommand, BatchCommand, JobsCommand, StreamCommand, RecordCommand,
-                          InspectCommand, StripCommand, UrdfCommand, RvizCommand, ProbeCommand}) {
+  for (const auto make :
+       {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, ConvertCommand, GoldenCommand,
+        BatchCommand, JobsCommand, StudyCommand, StreamCommand, RecordCommand, InspectCommand,
+        StripCommand, UrdfCommand, RvizCommand, ProbeCommand}) {
     commands.push_back(make());
   }
   return commands;

@@ -19,6 +19,7 @@ Command LoadsCommand();    // source -> CSV, JSON, plots, report
 Command ConvertCommand();  // source -> motion files
 Command BatchCommand();    // list of jobs -> what they make
 Command JobsCommand();     // recordings -> list of jobs
+Command StudyCommand();    // results of jobs -> page, CSV
 Command GoldenCommand();   // check, accept, ... golden images
 Command StreamCommand();   // source -> MVN network stream
 Command RecordCommand();   // source -> capture file

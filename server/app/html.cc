@@ -1,5 +1,7 @@
 #include "server/app/html.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 
 #include "core/system/utf8.h"
@@ -20,6 +22,17 @@ std::string EscapeHtml(std::string_view text) {
     }
   }
   return escaped;
+}
+
+std::string PercentEncoded(std::string_view path) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+  std::string encoded;
+  for (const char c : path) {
+    const bool is_plain = kPlain.find(c) != std::string_view::npos;
+    encoded += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return encoded;
 }
 
 std::string DataUrl(std::string_view media_type, std::string_view bytes) {

@@ -2,18 +2,42 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/system/json_text.h"
+
 namespace kinescope::app {
+namespace {
 
 using Clock = std::chrono::steady_clock;
 
+ProgressForm& FormOfAll() {
+  static ProgressForm form = ProgressForm::kAuto;
+  return form;
+}
+
+ProgressForm FormHere() {
+  const ProgressForm form = FormOfAll();
+  const bool is_seen = form == ProgressForm::kJson || isatty(STDERR_FILENO) == 1;
+  return is_seen ? form : ProgressForm::kOff;
+}
+
+double Rounded(double value) { return std::round(value * 1e3) / 1e3; }
+
+}  // namespace
+
+void SetProgressForm(ProgressForm form) { FormOfAll() = form; }
+
 Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(total), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+    : what_(std::move(what)), total_(total), form_(FormHere()) {}
 
 Progress::~Progress() {
-  if (is_terminal_ && done_ > 0) std::fputc('\n', stderr);
+  if (form_ == ProgressForm::kAuto && done_ > 0) std::fputc('\n', stderr);
+  if (form_ == ProgressForm::kJson && drawn_done_ < done_) PrintJson();
 }
 
 double Progress::secs() const {
@@ -22,11 +46,18 @@ double Progress::secs() const {
 
 void Progress::Step() {
   ++done_;
-  if (!is_terminal_) return;
+  if (total_ > 0) total_ = std::max(total_, done_);  // totals of samples are from lengths
+  if (form_ == ProgressForm::kOff) return;
   const auto now = Clock::now();
-  if (now - drawn_ < std::chrono::milliseconds(100) && done_ != total_) return;
+  const auto pause = std::chrono::milliseconds(form_ == ProgressForm::kJson ? 1000 : 100);
+  if (now - drawn_ < pause && done_ != total_) return;
   drawn_ = now;
-  Draw();
+  drawn_done_ = done_;
+  if (form_ == ProgressForm::kJson) {
+    PrintJson();
+  } else {
+    Draw();
+  }
 }
 
 void Progress::Skip() {
@@ -41,6 +72,20 @@ void Progress::Draw() const {
   } else {
     std::fprintf(stderr, "\r%s %d, %.0f per second   ", what_.c_str(), done_, rate);
   }
+}
+
+// One write: several processes may share the stream.
+void Progress::PrintJson() const {
+  const double spent = secs();
+  nlohmann::ordered_json line = {{"progress", what_.substr(0, what_.find_last_not_of(':') + 1)},
+                                 {"done", done_},
+                                 {"seconds", Rounded(spent)}};
+  if (total_ > 0) {
+    line["total"] = total_;
+    line["seconds_left"] = Rounded(spent / done_ * (total_ - done_));
+  }
+  const std::string text = JsonText(line) + '\n';
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 }  // namespace kinescope::app

@@ -1,11 +1,19 @@
-/// Progress line on stderr: done, rate, time left. Prints nothing if stderr is not a terminal. One
-/// thread.
+/// Progress of long work on stderr: done, rate, time left. One thread.
 #pragma once
 
 #include <chrono>
 #include <string>
 
 namespace kinescope::app {
+
+enum class ProgressForm {
+  kAuto,  // a line that is drawn anew, if stderr is a terminal
+  kJson,  // lines for programs, one a second: {"progress":"samples","done":60,"total":480,…}
+  kOff,
+};
+
+/// Of everything that begins from now on. Call it before threads are started.
+void SetProgressForm(ProgressForm form);
 
 class Progress {
  public:
@@ -22,13 +30,15 @@ class Progress {
 
  private:
   void Draw() const;
+  void PrintJson() const;
 
   const std::string what_;
   int total_;
-  const bool is_terminal_;
+  const ProgressForm form_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point drawn_{};
   int done_ = 0;
+  int drawn_done_ = 0;  // when it was drawn
 };
 
 }  // namespace kinescope::app

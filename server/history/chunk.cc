@@ -259,7 +259,7 @@ Chunk::Rows Chunk::Unpack() const {
   return rows;
 }
 
-std::shared_ptr<const SceneState> Chunk::At(const Rows& rows, std::size_t row) const {
+std::shared_ptr<SceneState> Chunk::At(const Rows& rows, std::size_t row) const {
   auto state = std::make_shared<SceneState>(*form_);
   Reader reader(texts_, rows.values_.data() + row * columns_);
   VisitState(reader, *state);

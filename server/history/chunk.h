@@ -40,7 +40,7 @@ class Chunk {
   /// A state of Unpack(). Lengths are rounded to 0.01 mm, orientations to 0.004 degrees, forces to
   /// 0.1 N and ratios to 0.00001. What the history does not keep is empty: the samples as they were
   /// received, joint angles and forces, velocities, robots and external markers.
-  std::shared_ptr<const SceneState> At(const Rows& rows, std::size_t row) const;
+  std::shared_ptr<SceneState> At(const Rows& rows, std::size_t row) const;
 
   std::uint64_t first_number() const { return first_number_; }
   std::uint64_t last_number() const { return last_number_; }

@@ -27,8 +27,11 @@ struct ByNumber {
 
 }  // namespace
 
-History::History(HistoryLimits limits)
-    : limits_(limits), series_({limits.nanos, limits.series_bytes}), worker_([this] { Work(); }) {}
+History::History(HistoryLimits limits, Complete complete)
+    : limits_(limits),
+      complete_(std::move(complete)),
+      series_({limits.nanos, limits.series_bytes}),
+      worker_([this] { Work(); }) {}
 
 History::~History() {
   {
@@ -146,7 +149,14 @@ std::shared_ptr<const SceneState> History::Find(typename Key::Value wanted) cons
   const auto rows = Unpacked(chunk);
   std::size_t row = 0;
   while (row + 1 < rows->count() && Key::Of(*rows, row + 1) <= wanted) ++row;
-  return chunk->At(*rows, row);
+  return Made(*chunk, *rows, row);
+}
+
+std::shared_ptr<const SceneState> History::Made(const Chunk& chunk, const Chunk::Rows& rows,
+                                                std::size_t row) const {
+  std::shared_ptr<SceneState> state = chunk.At(rows, row);
+  if (complete_) complete_(*state);
+  return state;
 }
 
 std::shared_ptr<const Chunk::Rows> History::Unpacked(
@@ -207,7 +217,7 @@ std::optional<std::int64_t> History::Visit(const Span& span, const Visitor& visi
     for (std::size_t row = 0; row < rows->count(); ++row) {
       if (!is_next(rows->made_nanos(row))) continue;
       last = rows->made_nanos(row);
-      if (!visit(*chunk->At(*rows, row))) return last;
+      if (!visit(*Made(*chunk, *rows, row))) return last;
     }
   }
   for (const auto& state : part.open) {

@@ -41,7 +41,11 @@ struct Extent {
 
 class History {
  public:
-  explicit History(HistoryLimits limits = {});
+  /// Adds to a state what is not kept and follows from the rest.
+  using Complete = std::function<void(SceneState& state)>;
+
+  /// `complete` may be null. Threads that look back call it.
+  explicit History(HistoryLimits limits = {}, Complete complete = nullptr);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
@@ -93,8 +97,11 @@ class History {
   std::shared_ptr<const SceneState> Find(typename Key::Value wanted) const;
   Part PartBetween(std::int64_t after_nanos, std::int64_t until_nanos) const;
   std::shared_ptr<const Chunk::Rows> Unpacked(const std::shared_ptr<const Chunk>& chunk) const;
+  std::shared_ptr<const SceneState> Made(const Chunk& chunk, const Chunk::Rows& rows,
+                                         std::size_t row) const;
 
   const HistoryLimits limits_;
+  const Complete complete_;
   Series series_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;

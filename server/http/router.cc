@@ -372,7 +372,9 @@ Answer Router::OpenApi(const Request& /*request*/, Role /*role*/) const {
 }
 
 Answer Router::Session(const Request& /*request*/, Role role) const {
-  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}, {"socket", SocketProtocol()}}));
+  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)},
+                                            {"socket", SocketProtocol()},
+                                            {"started_micros", site_.started_micros}}));
 }
 
 Answer Router::State(const Request& /*request*/, Role /*role*/) const {
@@ -474,6 +476,18 @@ Answer Router::Snapshot(const Request& request, Role /*role*/) const {
       snapshot.camera = value;
       continue;
     }
+    if (name == "state") {
+      const auto wanted = ParseNumber<std::uint64_t>(value);
+      if (!wanted)
+        return Refuse(400, "bad snapshot",
+                      "state=" + value + ": expected a whole number from 0 on");
+      if (site_.history == nullptr) return Refuse(503, "no history", kNoHistory);
+      snapshot.state = site_.history->Numbered(*wanted);
+      if (snapshot.state == nullptr || snapshot.state->number != *wanted) {
+        return RefuseMoment(*wanted, snapshot.state.get());
+      }
+      continue;
+    }
     if (name == "theme" && (value == "light" || value == "dark")) {
       snapshot.is_dark = value == "dark";
       continue;
@@ -485,7 +499,8 @@ Answer Router::Snapshot(const Request& request, Role /*role*/) const {
     if (pixels == nullptr || !number || *number < kMinPictureSide || *number > kMaxPixels) {
       return Refuse(400, "bad snapshot",
                     name + "=" + value +
-                        ": expected camera=<name>, theme=light or dark, width= and height= from " +
+                        ": expected camera=<name>, state=<number>, theme=light or dark, width= and "
+                        "height= from " +
                         std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPixels));
     }
     *pixels = *number;

@@ -47,9 +47,10 @@ class Router {
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
     std::function<void(const std::string& reason)> count_refusal;
-    bool is_tls = false;            // the cookie is for TLS only then
-    std::string base_path;          // "" or "/lab3"; requests come without it
-    GuessGuard* guesses = nullptr;  // may be null: wrong tokens are not slowed down
+    bool is_tls = false;              // the cookie is for TLS only then
+    std::string base_path;            // "" or "/lab3"; requests come without it
+    GuessGuard* guesses = nullptr;    // may be null: wrong tokens are not slowed down
+    std::int64_t started_micros = 0;  // of the server, wall clock
   };
   explicit Router(Site site) : site_(std::move(site)) {}
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
@@ -245,6 +246,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.history = config_.history;
   site.surroundings = config_.surroundings;
+  site.started_micros = WallNanos() / 1000;
   site.marks = config_.marks;
   site.controls = config_.controls;
   site.alarms = config_.alarms;

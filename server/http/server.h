@@ -89,7 +89,7 @@ class PictureFeed {
   [[nodiscard]] virtual bool SetCamera(const std::string& camera) = 0;
   /// The theme of the live picture: dark while all of its viewers want it so.
   virtual void SetDark(bool is_dark) = 0;
-  /// Renders one picture of the newest state as PNG; blocks until it is done.
+  /// Renders one picture as PNG; blocks until it is done.
   /// @throws std::exception with one line for the client.
   virtual std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) = 0;
 };

@@ -92,12 +92,14 @@ void DrawingLoop::SetCamera(CameraController camera) {
 }
 
 std::future<render::Image> DrawingLoop::Request(const render::PictureSpec& view,
-                                                std::optional<CameraController> camera) {
-  return Enqueue({view, std::move(camera), nullptr, {}});
+                                                std::optional<CameraController> camera,
+                                                std::shared_ptr<const SceneState> state) {
+  return Enqueue({view, std::move(camera), nullptr, std::move(state), {}});
 }
 
-std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& view, Aim aim) {
-  return Enqueue({view, std::nullopt, std::move(aim), {}});
+std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& view, Aim aim,
+                                                     std::shared_ptr<const SceneState> state) {
+  return Enqueue({view, std::nullopt, std::move(aim), std::move(state), {}});
 }
 
 render::PictureSpec DrawingLoop::LiveSpec() const {
@@ -112,6 +114,12 @@ render::PictureSpec DrawingLoop::LiveSpec() const {
 render::Camera DrawingLoop::AimLive(const render::ViewShape& shape) {
   const std::lock_guard<std::mutex> lock(mutex_);
   return camera_.AimLive(*state_, shapes_.Of(LiveSpec(), *state_), shape);
+}
+
+render::Camera DrawingLoop::AimAlone(const SceneState& state,
+                                     const render::ViewShape& shape) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return camera_.OnlyLive(state, shape);
 }
 
 std::future<render::Image> DrawingLoop::Enqueue(Order order) {
@@ -200,8 +208,8 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   orders_.pop_front();
   in_hand_ = std::move(order.picture);
   settings_.people.ApplyTo(order.view.look);
-  const std::shared_ptr<const SceneState> state = state_;
-  order.view.look.trails = trails_.Make();
+  if (!order.state) order.view.look.trails = trails_.Make();
+  const std::shared_ptr<const SceneState> state = order.state ? order.state : state_;
   order.view.look.ghosts = state->ghosts;
   const render::ViewShape shape = shapes_.Of(order.view, *state);
   std::optional<render::Camera> camera;

@@ -1,6 +1,7 @@
 /// Renders the newest state on its own thread: the live picture while it has viewers, at most
-/// `rate_hz` times per second, and single pictures on request, which go first. States may arrive at
-/// any rate; older ones are dropped. The renderer is made for the first picture.
+/// `rate_hz` times per second, and single pictures on request, which go first, also of former
+/// states. States may arrive at any rate; older ones are dropped. The renderer is made for the
+/// first picture.
 #pragma once
 
 #include <chrono>
@@ -83,23 +84,28 @@ class DrawingLoop {
   void SetDark(bool is_dark);
   /// Cuts the live picture to `camera`.
   void SetCamera(CameraController camera);
-  /// One picture of the newest state, beside the live ones; without `camera` by that of the live
-  /// picture. The future fails with what rendering threw, or std::runtime_error if the driver does
-  /// not respond or the loop ends.
+  /// One picture beside the live ones; without `camera` by that of the live picture. `state`: a
+  /// former one, with the trails of `view`; null: the newest. The future fails with what rendering
+  /// threw, or std::runtime_error if the driver does not respond or the loop ends.
   /// @throws std::runtime_error if the driver does not respond, or if kMaxWaiting requests wait.
   std::future<render::Image> Request(const render::PictureSpec& view,
-                                     std::optional<CameraController> camera = std::nullopt);
+                                     std::optional<CameraController> camera = std::nullopt,
+                                     std::shared_ptr<const SceneState> state = nullptr);
   /// As above, by the camera that `aim` returns for its shape when it is the picture's turn.
-  std::future<render::Image> RequestAimed(const render::PictureSpec& view, Aim aim);
+  std::future<render::Image> RequestAimed(const render::PictureSpec& view, Aim aim,
+                                          std::shared_ptr<const SceneState> state = nullptr);
   /// Where the camera of the live picture is now, for a picture of this shape.
   render::Camera AimLive(const render::ViewShape& shape);
+  /// Where it would be for a picture of `state` alone.
+  render::Camera AimAlone(const SceneState& state, const render::ViewShape& shape) const;
   DrawingStatus status() const;
 
  private:
   struct Order {
     render::PictureSpec view;
     std::optional<CameraController> camera;
-    Aim aim;  // null: `camera`, or that of the live picture
+    Aim aim;                                  // null: `camera`, or that of the live picture
+    std::shared_ptr<const SceneState> state;  // null: the newest
     std::promise<render::Image> picture;
   };
 

@@ -18,6 +18,7 @@
 #include "core/system/errors.h"
 #include "server/ros/bridge.h"
 #include "server/ros/master_client.h"
+#include "server/ros/node_time.h"
 #include "server/ros/xmlrpc_limits.h"
 
 namespace kinescope::ros_bridge {
@@ -83,11 +84,11 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
 }
 
 // Fetches all parameters at the first call: a master that does not answer then costs one timeout
-// and not one per option.
+// and not one per option. One lost packet can cost more than a second.
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
-  const MasterReply reply = MasterClient().Call("getParam", arguments);
+  const MasterReply reply = MasterClient().Call("getParam", arguments, kMasterPatience);
   return reply.code == MasterReply::Code::kGood ? reply.value : XmlRpcValue();
 }
 
@@ -138,6 +139,7 @@ void InitRos() {
   } catch (const ros::Exception& error) {
     throw UsageError(fmt::format("ROS does not accept these names: {}", error.what()));
   }
+  AnswerWithTime();
 }
 
 std::string MasterUri() {

@@ -27,6 +27,7 @@ constexpr std::array kMethodAnswers = {
     MethodAnswer{"getTopicTypes", AnswerType::kPairs},
     MethodAnswer{"getUri", AnswerType::kString},
     MethodAnswer{"hasParam", AnswerType::kBoolean},
+    MethodAnswer{"kinescope_time", AnswerType::kStrings},
     MethodAnswer{"lookupNode", AnswerType::kString},
     MethodAnswer{"lookupService", AnswerType::kString},
     MethodAnswer{"publisherUpdate", AnswerType::kAny},

@@ -34,7 +34,10 @@ MasterReply Unwrap(XmlRpcValue& response) {
 MasterClient::MasterClient()
     : host_(ros::master::getHost()), port_(static_cast<int>(ros::master::getPort())) {}
 
-MasterClient::MasterClient(std::string host, int port) : host_(std::move(host)), port_(port) {}
+MasterClient::MasterClient(std::string host, int port, Connection connection)
+    : host_(std::move(host)), port_(port), connection_(connection) {}
+
+MasterClient::~MasterClient() = default;
 
 RegistrationState MasterClient::AskRegistration(const std::string& our_uri,
                                                 std::chrono::milliseconds timeout) {
@@ -62,7 +65,10 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
   all[0] = ros::this_node::getName();
   for (int i = 0; arguments.valid() && i < arguments.size(); ++i) all[i + 1] = arguments[i];
 
-  XmlRpc::XmlRpcClient client(host_.c_str(), port_, "/");
+  if (!client_) client_ = std::make_unique<XmlRpc::XmlRpcClient>(host_.c_str(), port_, "/");
+  XmlRpc::XmlRpcClient& client = *client_;
+  client._header.clear();
+  client._response.clear();
   TakeXmlRpcProblem();  // of an earlier call
   MasterReply reply;
   if (client.executeNonBlock(method, all)) {
@@ -101,6 +107,8 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
     reply = {};
     reply.problem = StartsWith(rejected, "answered ") ? rejected : "sent " + rejected;
   }
+  if (connection_ == Connection::kNew || reply.code == MasterReply::Code::kNoAnswer)
+    client_.reset();
   problem_ = reply.problem;
   return reply;
 }

@@ -5,8 +5,13 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
+
+namespace XmlRpc {
+class XmlRpcClient;
+}
 
 namespace kinescope::ros_bridge {
 
@@ -36,14 +41,21 @@ enum class RegistrationState {
   kNameTaken,  // another node has this node's name
 };
 
-/// Used by one thread. Every call makes a new connection: a kept one could belong to a master that
-/// has been restarted since.
+enum class Connection {
+  kNew,   // for every call: a kept one could belong to a master that has been restarted since
+  kKept,  // while calls succeed
+};
+
+/// Used by one thread.
 class MasterClient {
  public:
   /// @pre ros::init was called: it defines the master's address and this node's name.
   MasterClient();
   /// For the server of a node, such as this one: its answers have the form of the master's.
-  MasterClient(std::string host, int port);
+  MasterClient(std::string host, int port, Connection connection = Connection::kNew);
+  ~MasterClient();
+  MasterClient(const MasterClient&) = delete;
+  MasterClient& operator=(const MasterClient&) = delete;
 
   /// Calls `method` with this node's name and `arguments`, an array. Takes at most about `timeout`;
   /// a name server that does not answer can make it longer.
@@ -64,6 +76,8 @@ class MasterClient {
  private:
   std::string host_;
   int port_ = 0;
+  const Connection connection_ = Connection::kNew;
+  std::unique_ptr<XmlRpc::XmlRpcClient> client_;  // kKept: of the last call, if it was answered
   std::string problem_;
 };
 

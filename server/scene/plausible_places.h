@@ -27,7 +27,8 @@ class PlausiblePlaces {
   ///   place of fewer than three samples, or of more than a second ago, does not count.
   /// - Farther than kFarthest from the person who is nearest to the origin of the world: suits are
   ///   calibrated near it. The larger group would not do: false senders can be many.
-  /// @param position of the pelvis, world, m  @param stamp_nanos as in BodySample
+  /// @param position of the pelvis, world, m  @param stamp_nanos when it was
+  /// measured or came, on one clock for all people
   std::optional<Doubt> WhyNot(int character, const Eigen::Vector3d& position,
                               std::int64_t stamp_nanos);
 

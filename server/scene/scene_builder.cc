@@ -20,6 +20,12 @@ using Eigen::Vector3d;
 // A person who sent nothing for this long while others do has left.
 constexpr std::int64_t kGoneAfterNanos = 1'000'000'000;
 
+// By which samples of one source are compared: the stamps of a live one may be of several machines.
+template <class Sample>
+std::int64_t MomentOf(const Sample& sample) {
+  return sample.arrival_nanos != 0 ? sample.arrival_nanos : sample.stamp_nanos;
+}
+
 JointLoad Unknown(int joint, const Vector3d& position, std::string_view reason) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   JointLoad load;
@@ -114,7 +120,7 @@ void SceneBuilder::ForgetThoseGone() {
   for (auto person = people_.begin(); person != people_.end();) {
     const PersonState* const state = person->second.state();
     const bool is_gone =
-        state != nullptr && current_.stamp_nanos - state->sample.stamp_nanos > kForgetAfter;
+        state != nullptr && MomentOf(current_) - MomentOf(state->sample) > kForgetAfter;
     if (!is_gone) {
       ++person;
       continue;
@@ -132,14 +138,14 @@ void SceneBuilder::TakeTime(const BodySample& sample) {
   current_.waited_nanos = waited_nanos_;
 }
 
-// Also after the clock was set back, and in recordings that follow each other.
-bool SceneBuilder::IsWithin(std::int64_t nanos, std::int64_t stamp_nanos) const {
-  return std::abs(current_.stamp_nanos - stamp_nanos) <= nanos;
+// Also in recordings that follow each other.
+bool SceneBuilder::IsWithin(std::int64_t nanos, std::int64_t moment) const {
+  return std::abs(MomentOf(current_) - moment) <= nanos;
 }
 
 bool SceneBuilder::IsPlausible(const BodySample& sample) {
   auto why =
-      places_.WhyNot(sample.character, sample.segments[urdf::kPelvis].position, sample.stamp_nanos);
+      places_.WhyNot(sample.character, sample.segments[urdf::kPelvis].position, MomentOf(sample));
   const auto known = left_out_.find(sample.character);
   if (!why) {
     if (known != left_out_.end()) left_out_.erase(known);
@@ -151,7 +157,7 @@ bool SceneBuilder::IsPlausible(const BodySample& sample) {
                  name.empty() ? fmt::format("character {}", sample.character) : "'" + name + "'",
                  why->text);
   }
-  left_out_[sample.character] = {std::move(*why), sample.stamp_nanos};
+  left_out_[sample.character] = {std::move(*why), MomentOf(sample)};
   // The stream goes on; a person alone is shown at the last plausible place for a second.
   if (current_.liveness == Liveness::kNoData) return false;
   TakeTime(sample);
@@ -186,13 +192,14 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
 // Objects alone are no motion to show: they wait for the next sample of a person.
 void SceneBuilder::OnObjects(const ObjectsSample& sample) {
   const Character& cluster = characters_[sample.character];
-  std::vector<TrackedObject>& objects = objects_[sample.character];
-  objects.clear();
+  TrackedGroup& group = objects_[sample.character];
+  group.moment = MomentOf(sample);
+  group.objects.clear();
   for (std::size_t i = 0; i < sample.poses.size(); ++i) {
     if (!sample.present.test(i)) continue;
     const bool has_name =
         i < cluster.scaled_segments.size() && !cluster.scaled_segments[i].name.empty();
-    objects.push_back(
+    group.objects.push_back(
         {sample.character, static_cast<int>(i),
          has_name ? cluster.scaled_segments[i].name : "object_" + std::to_string(i + 1),
          sample.poses[i], sample.stamp_nanos});
@@ -209,7 +216,7 @@ void SceneBuilder::Publish(Liveness liveness) {
   for (const auto& [id, person] : people_) {
     const PersonState* const state = person.state();
     if (state == nullptr) continue;
-    if (!IsWithin(kGoneAfterNanos, state->sample.stamp_nanos)) continue;
+    if (!IsWithin(kGoneAfterNanos, MomentOf(state->sample))) continue;
     const auto left_out = left_out_.find(id);
     if (left_out != left_out_.end() && left_out->second.doubt.is_of_person) continue;
     scene->people.push_back(*state);
@@ -225,14 +232,12 @@ void SceneBuilder::Publish(Liveness liveness) {
   if (!scene->people.empty()) {
     scene->view_heading = current_.view_heading = view_heading_.Follow(scene->people.front());
   }
-  for (const auto& [id, cluster] : objects_) {
-    for (const TrackedObject& object : cluster) {
-      if (!IsWithin(kGoneAfterNanos, object.stamp_nanos)) continue;
-      scene->objects.push_back(object);
-    }
+  for (const auto& [id, group] : objects_) {
+    if (!IsWithin(kGoneAfterNanos, group.moment)) continue;
+    scene->objects.insert(scene->objects.end(), group.objects.begin(), group.objects.end());
   }
   for (const auto& [id, left_out] : left_out_) {
-    if (!IsWithin(kGoneAfterNanos, left_out.stamp_nanos)) continue;
+    if (!IsWithin(kGoneAfterNanos, left_out.moment)) continue;
     scene->left_out.push_back({id, characters_[id].name, left_out.doubt.text});
   }
   on_state_(scene);

@@ -111,16 +111,20 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   PersonTracker& TrackerOf(int id);
   bool IsPlausible(const BodySample& sample);
   void TakeTime(const BodySample& sample);
-  bool IsWithin(std::int64_t nanos, std::int64_t stamp_nanos) const;
+  bool IsWithin(std::int64_t nanos, std::int64_t moment) const;
   void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
   void PlaceMarkers();
   void PlaceRobots();
 
+  struct TrackedGroup {
+    std::vector<TrackedObject> objects;
+    std::int64_t moment = 0;  // MomentOf its sample
+  };
   struct LeftOut {
     PlausiblePlaces::Doubt doubt;
-    std::int64_t stamp_nanos = 0;
+    std::int64_t moment = 0;  // MomentOf its sample
   };
 
   SceneOptions options_;
@@ -136,10 +140,10 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::map<int, Character> characters_;      // as the source described them; people and groups of
                                              // tracked objects
   std::map<int, PersonInputs> inputs_;
-  std::map<int, LeftOut> left_out_;                    // now
-  std::set<int> left_out_once_;                        // said once
-  std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each group
-  std::int64_t waited_nanos_ = 0;                      // see SetWaited()
+  std::map<int, LeftOut> left_out_;      // now
+  std::set<int> left_out_once_;          // said once
+  std::map<int, TrackedGroup> objects_;  // of the newest sample of each group
+  std::int64_t waited_nanos_ = 0;        // see SetWaited()
   HeldHeading view_heading_;
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds

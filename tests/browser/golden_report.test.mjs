@@ -68,7 +68,7 @@ test('its keys go through the cases and collect the command that accepts', async
   await page.locator('section.case [data-decision=accept]').nth(1).click();
   const command = await page.textContent('#command');
   assert.equal(command, 'kinescope golden accept run reach bend');
-  for (const [name, quoted] of [['it\'s; x', "'it'\\''s; x'"], ['-a', "'-a'"], ['a@0030.b', "'a@0030.b'"], ['a_b-2', 'a_b-2']]) {
+  for (const [name, quoted] of [['it\'s; x', "'it'\\''s; x'"], ['-a', "'-a'"], ['a@0030.b', 'a@0030.b'], ['=a', "'=a'"], ['a_b-2', 'a_b-2']]) {
     assert.equal(await page.evaluate((text) => word(text), name), quoted, 'a shell takes it for a name');
   }
   assert.deepEqual(problems, []);

@@ -1,15 +1,15 @@
 // The four arrangements of the page: desk, phone, wall and kiosk, and the people in them.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot, startFixture }
-  from './open_page.mjs';
+import { endAlarm, raiseAlarm, startWithAlarms } from './alarm_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
 const WALL = { width: 1920, height: 1080 };
 const LEAST_DIGIT = 0.047;  // of the height: 16 arc minutes at 4 m on a screen of 32 inches
 let site;
-before(async () => { site = await startFixture(); });
+before(async () => { site = await startWithAlarms(); });
 after(async () => {
   await site.stop();
   await closeBrowser();
@@ -60,6 +60,13 @@ for (const [width, height, least, people] of [[1440, 900, 640, 1], [1440, 900, 6
       }).map((part) => part.id || part.textContent));
       assert.deepEqual(out, [], tab);
     }
+    await saveScreenshot(page, `desk_${width}_${people}`);
+    await raiseAlarm(site, page);  // what follows holds with it
+    const alarm = await page.evaluate(() => ['alarm-head', 'acknowledge', 'alarm-sound'].map((id) => {
+      const { left, right, top, bottom } = document.getElementById(id).getBoundingClientRect();
+      return left >= 0 && right <= innerWidth && top >= 0 && bottom <= innerHeight && right > left;
+    }));
+    assert.deepEqual(alarm, [true, true, true], 'the alarm and its buttons are on the screen');
     const crossed = await page.evaluate(() => {
       const parts = ['#status', '#alarm', '.readings', '#about', '#tools', '#cameras', '.points', '#loads-shown'];
       const boxes = parts.map((name) => document.querySelector(name).getBoundingClientRect());
@@ -70,7 +77,8 @@ for (const [width, height, least, people] of [[1440, 900, 640, 1], [1440, 900, 6
     });
     assert.deepEqual(crossed, []);
     assert.equal(await isWide(page), false);
-    await saveScreenshot(page, `desk_${width}_${people}`);
+    await saveScreenshot(page, `desk_${width}_${people}_alarm`);
+    await endAlarm(site, page);
     assert.deepEqual(problems, []);
     await close();
   });
@@ -120,12 +128,12 @@ for (const people of [1, 2, 4, 6]) {
       && parseFloat(getComputedStyle(part).fontSize) < least && parseFloat(getComputedStyle(part).fontSize) > 0)
       .map((part) => part.id || part.className), 0.067 * WALL.height);
     assert.deepEqual(letters, [], 'all words are as large as the digits');
-    const cut = await page.evaluate(() => [...document.querySelectorAll('.person, .person *, #status, #clock, .head-name')]
+    const cutParts = () => page.evaluate(() => [...document.querySelectorAll('.person, .person *, #status, #clock, .head-name, #alarm, #alarm *')]
       .filter((part) => part.checkVisibility() && part.offsetWidth > 1).filter((part) => {
-        const box = part.getBoundingClientRect(), card = (part.closest('.person, #status, .stage') ?? part).getBoundingClientRect();
+        const box = part.getBoundingClientRect(), card = (part.closest('.person, #status, #alarm, .stage') ?? part).getBoundingClientRect();
         return box.right > card.right + 1 || box.bottom > card.bottom + 1 || box.right > innerWidth || box.bottom > innerHeight;
       }).map((part) => `${part.className} ${part.textContent}`));
-    assert.deepEqual(cut, []);
+    assert.deepEqual(await cutParts(), []);
     const more = await page.evaluate(() => getComputedStyle(document.getElementById('people'), '::after').content);
     assert.equal(more.includes('and 2 more'), people === 6, more);
     for (const control of ['button:not(:disabled)', 'input', 'select', '[tabindex="0"]']) {
@@ -136,6 +144,10 @@ for (const people of [1, 2, 4, 6]) {
     await page.keyboard.press('f');
     assert.equal(await page.textContent('#status-word'), 'Live', 'there are no keys');
     await saveScreenshot(page, `wall_${people}`);
+    await raiseAlarm(site, page);
+    assert.deepEqual(await cutParts(), [], 'with an alarm');
+    await saveScreenshot(page, `wall_${people}_alarm`);
+    await endAlarm(site, page);
     assert.deepEqual(problems, []);
     await close();
   });
@@ -180,6 +192,10 @@ test('a kiosk has lamp, view, body map, strip and one sentence, and nothing to p
     .filter((part) => part.getBoundingClientRect().bottom > innerHeight).length);
   assert.equal(out, 0, 'all is on the screen');
   await saveScreenshot(page, 'kiosk');
+  await raiseAlarm(site, page);
+  assert.equal(await page.locator('button:visible').count(), 0, 'an alarm brings nothing to press');
+  await saveScreenshot(page, 'kiosk_alarm');
+  await endAlarm(site, page);
   assert.deepEqual(problems, []);
   await close();
 });
@@ -200,19 +216,25 @@ for (const [name, viewport, colorScheme, people] of [
     const { page, problems, close } = await open('', people, { viewport, colorScheme });
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const third = viewport.height === PHONE.height ? viewport.height * 2 / 3 : viewport.height / 2;
-    for (const tab of ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'more']) {
-      await chooseTab(page, tab);
+    const inReach = async (tab) => {
       for (const { what, inRow, top, bottom, left, right, width, height } of await pressed(page)) {
         assert.ok(width >= 43.5 && height >= 43.5, `${tab}: ${what} is ${width} x ${height}`);
         assert.ok(top >= third - 1 && bottom <= viewport.height, `${tab}: ${what} is at ${top} to ${bottom}`);
         assert.ok(inRow || (left >= 0 && right <= viewport.width), `${tab}: ${what} is at ${left} to ${right}`);
       }
+    };
+    for (const tab of ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'more']) {
+      await chooseTab(page, tab);
+      await inReach(tab);
       assert.equal(await isWide(page), false, tab);
       const panel = await page.evaluate(() => document.querySelector('[data-chosen]:is(section, div)').getBoundingClientRect().height);
       assert.ok(panel >= 150, `${tab}: ${panel} px are left`);
       await saveScreenshot(page, `${name}_${tab}`);
     }
     await chooseTab(page, 'view');
+    await raiseAlarm(site, page);  // what follows holds with it
+    await inReach('view with an alarm');
+    await saveScreenshot(page, `${name}_alarm`);
     const view = await boxOf(page, '#view canvas');
     const over = await page.evaluate(([x, y, width, height]) => {
       const covers = new Set();
@@ -226,6 +248,7 @@ for (const [name, viewport, colorScheme, people] of [
     }, [view.x, view.y, view.width, view.height]);
     assert.deepEqual(over, [], 'nothing lies over the lower part of the view');
     assert.ok(view.height >= 240, `the view is ${view.height} px high`);
+    await endAlarm(site, page);
     assert.deepEqual(problems, []);
     await close();
   });

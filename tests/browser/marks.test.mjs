@@ -8,6 +8,7 @@ import { besidesOutage, chooseTab, closeBrowser, openPage, PHONE, saveScreenshot
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+const MANY = 10_000;
 const OPERATOR = '0perator-of-the-lab', VIEWER = 'v1ewer-of-the-lab';
 let site, folder, file;
 const start = async () => {
@@ -103,6 +104,54 @@ test('a live mark is of the sample that is drawn, within one', async () => {
   await saidIs(page, /^Marked: “grasp”/);
   const { at } = (await lines()).at(-1);
   assert.ok(Math.abs(at.counter - seen) <= 1, `marked ${at.counter}, seen ${seen}`);
+  await close();
+});
+
+test('a mark of a moment that is gone, or that has not come, is refused in words, and live goes on', async () => {
+  const { page, close } = await open(site.url);
+  const count = (await lines()).length;
+  for (const [state, sentence] of [[0, /^The mark was not set: state 0 is no longer kept \(--history_minutes\)$/],
+    [1e9, /^The mark was not set: state 1000000000 has not come yet; the newest one is \d+$/]]) {
+    await page.route('**/api/v1/mark', (route) => route.continue(
+      { postData: JSON.stringify({ ...route.request().postDataJSON(), state }) }), { times: 1 });
+    await page.keyboard.press('1');
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').textContent), sentence.source, LONG);
+    assert.equal(await page.textContent('#status-word'), 'Live');
+  }
+  assert.equal((await lines()).length, count);
+  await page.keyboard.press('1');
+  await saidIs(page, /^Marked: “grasp”/);
+  await close();
+});
+
+test('with ten thousand marks the page stays as small and as quick as before', async () => {
+  let newest = 0;  // moment of the last real mark, µs
+  const { page, problems, close } = await open(site.url, { beforeLoad: (fresh) => fresh.route('**/api/v1/marks?after=*', async (route) => {
+    const answer = await (await route.fetch()).json(), after = Number(new URL(route.request().url()).searchParams.get('after'));
+    if (after >= MANY) return route.fulfill({ json: { ...answer, marks: [] } });
+    const like = { kind: 'mark', button: 1, text: 'grasp', role: 'operator', is_open: false, is_removed: false, behind_secs: 0,
+      run_micros: answer.run_micros };
+    newest ||= answer.marks.at(-1).at.micros;
+    const marks = Array.from({ length: 2000 }, (_, i) => {
+      const number = after + i + 1;
+      const moment = { state: number, micros: newest - 300 * number, stamp_micros: number, time_code_millis: number, counter: number };
+      return { ...like, id: 1_000_000 + number, revision: number, at: moment, end: number % 7 === 0 ? moment : null };
+    });
+    return route.fulfill({ json: { ...answer, revision: MANY, marks } });
+  }) });
+  await chooseTab(page, 'marks');
+  await page.waitForFunction((text) => document.getElementById('mark-earlier').textContent === text,
+    `${MANY - 200} earlier marks are in the file`, LONG);
+  const { items, parts } = await page.evaluate(() => ({
+    items: document.querySelectorAll('#mark-list li').length, parts: document.querySelectorAll('*').length }));
+  assert.equal(items, 200);
+  assert.ok(parts < 3500, `${parts} elements`);
+  await saveScreenshot(page, 'marks_many');
+  const sample = Number(await page.textContent('#sample'));
+  await page.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 60, sample, LONG);
+  await page.click('#play');
+  await page.waitForFunction(() => document.body.dataset.time === 'behind', null, LONG);
+  assert.deepEqual(problems, []);
   await close();
 });
 

@@ -1,6 +1,6 @@
 // The page shows what the pictures of the server show: all objects, pixel by pixel.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { writeFile } from 'node:fs/promises';
 import { connect, createServer } from 'node:net';
@@ -8,7 +8,9 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
 import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
-import { cameraOf, folder, LONG, mask, MARKS, overlap, PLAIN, record, serve, serverPixels, whatCovers } from './same_pixels.mjs';
+import {
+  cameraOf, folder, grown, LONG, mask, MARKS, overlap, PLAIN, record, serve, serverPixels, stateOf, whatCovers,
+} from './same_pixels.mjs';
 
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
 const EVERYTHING = { route: '**/api/v1/model', address: 'api/v1/skin', answer: hidePeople };
@@ -35,6 +37,27 @@ test("body, loads, forces and points cover the same pixels on the page and in th
   await site.stop();
 });
 
+test('a former moment covers the same pixels on the page and in a picture', async () => {
+  const file = join(folder, 'moving.mvnx'), place = 0.5, ghost = ['--ghost', 't_pose'];
+  execFileSync(process.env.KINESCOPE, ['convert', 'demo:lift', '--seconds', '2', '--rate_hz', '60', '--out', file], { stdio: 'ignore' });
+  const site = await serve(file, ['--stop_at', '1.5', '--pictures', 'off', ...ghost]);
+  const { page, covered, size, close } = await whatCovers(site, 'front', { ...SKIN, query: `&at=${place}` },
+    { 'status-word': 'Recording 0:00.5' });
+  await saveScreenshot(page, 'same_former');
+  const state = await stateOf(page, START_MICROS + 1e6 * place + 1000), sameCamera = await cameraOf(page, 'front', size, state);
+  const draw = (hidden, more = []) => serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...more], place);
+  const rest = `shadows,${MARKS}`;
+  const withLoads = mask(await draw(rest), await draw(rest.replace('loads,', '')));
+  const both = mask(await draw(rest, ghost), await draw(`body,${rest}`));
+  const { share, either } = overlap(covered, both, grown(withLoads, size));
+  assert.ok(either > 0.02 * covered.length, `${either} pixels`);
+  assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
+  await site.stop();
+  await close();
+});
+
+const START_MICROS = 3600e6;  // of the clock of a server that stops at a moment
+const SKIN = { route: '**/api/v1/skin/**', address: 'api/v1/skin' };
 const BESIDE = { route: /api\/v1\/(surroundings\.glb|skin\/1000000\/)/, address: 'api/v1/skin/1000000' };
 const MARKERS = { route: '**/api/v1/surroundings.glb*', address: 'api/v1/surroundings.glb' };
 const NOTHING_LEFT_OUT = (covered) => new Uint8Array(covered.length);

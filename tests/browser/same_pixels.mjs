@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { after, before } from 'node:test';
 import { LiveCamera } from '../../web/live_camera.js';
-import { decodeState } from '../../web/state_codec.js';
+import { decodePast, decodeState, KIND } from '../../web/state_codec.js';
 import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng } from './open_page.mjs';
 
 export const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -72,36 +72,43 @@ export async function serve(file, options, env = {}) {
 export function mask(one, other) {
   assert.deepEqual([one.width, one.height], [other.width, other.height]);
   const covered = new Uint8Array(one.width * one.height);
-  for (let i = 0; i < covered.length; ++i) {
-    const difference = [0, 1, 2].map((k) => Math.abs(one.data[4 * i + k] - other.data[4 * i + k]));
-    covered[i] = Math.max(...difference) > 12 ? 1 : 0;
-  }
+  const differ = (at) => Math.abs(one.data[at] - other.data[at]) > 12;
+  for (let i = 0; i < covered.length; ++i) covered[i] = differ(4 * i) || differ(4 * i + 1) || differ(4 * i + 2) ? 1 : 0;
   return covered;
 }
 
 /** Covered by both, as a share of what is covered by either; without the pixels of `leftOut`. */
 export function overlap(one, other, leftOut) {
   let both = 0, either = 0;
-  one.forEach((covered, i) => {
-    if (leftOut[i]) return;
-    both += covered & other[i];
-    either += covered | other[i];
-  });
+  for (let i = 0; i < one.length; ++i) {
+    if (leftOut[i]) continue;
+    both += one[i] & other[i];
+    either += one[i] | other[i];
+  }
   return { share: both / either, either };
 }
 
-/** The page's camera, by its own functions from what the server sends: as options of `render`. */
-export async function cameraOf(page, name, { width, height }) {
-  const bytes = await page.evaluate(() => new Promise((resolve) => {
+/** The newest state of the server, or the one at a moment of its history, µs. */
+export async function stateOf(page, micros = null) {
+  const kind = micros === null ? KIND.state : KIND.past;
+  const bytes = await page.evaluate(([wanted, moment]) => new Promise((resolve) => {
     const socket = new WebSocket(new URL('api/v1/ws', location.href.replace(/^http/, 'ws')));
     socket.binaryType = 'arraybuffer';
+    socket.onopen = () => { if (moment !== null) socket.send(JSON.stringify({ look: { id: 1, micros: moment } })); };
     socket.onmessage = ({ data }) => {
-      if (typeof data === 'string') return;
+      if (typeof data === 'string' || new Uint8Array(data)[0] !== wanted) return;
       resolve([...new Uint8Array(data)]);
       socket.close();
     };
-  }));
-  const state = decodeState(Uint8Array.from(bytes).buffer);
+  }), [kind, micros]);
+  const { buffer } = Uint8Array.from(bytes);
+  return micros === null ? decodeState(buffer) : decodePast(buffer).formers[0].state;
+}
+
+/** The page's camera, by its own functions from what the server sends: as options of `render`. `state`: that the page shows;
+ *  default: the newest. */
+export async function cameraOf(page, name, { width, height }, state = null) {
+  state ??= await stateOf(page);
   const { cameras, framing, model, area } = await page.evaluate(async () => {
     const [{ freeAreaOf }, { cameras, framing }, model] = await Promise.all([import('./free_area.js'),
       ...['cameras', 'model'].map(async (name) => (await fetch(`api/v1/${name}`)).json())]);
@@ -119,9 +126,9 @@ export async function cameraOf(page, name, { width, height }) {
 }
 
 /** What the server draws of the same sample from the same camera. */
-export async function serverPixels(page, file, camera, { width, height }, options) {
+export async function serverPixels(page, file, camera, { width, height }, options, time = 0) {
   const out = join(folder, 'server.png');
-  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
+  execFileSync(kinescope, ['render', file, '--time', `${time}`, ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
     { stdio: 'ignore' });
   return pixelsOfPng(page, await readFile(out));
 }
@@ -143,7 +150,9 @@ export async function settled(page) {
 /** With the pixels beside them, two in each direction: the rims of spheres differ by that much on the page. */
 export function grown(covered, { width }) {
   const by = [-2, -1, 0, 1, 2].flatMap((dy) => [-2, -1, 0, 1, 2].map((dx) => dy * width + dx));
-  return covered.map((_, i) => (by.some((step) => covered[i + step]) ? 1 : 0));
+  const wide = new Uint8Array(covered.length);
+  for (let i = covered.indexOf(1); i >= 0; i = covered.indexOf(1, i + 1)) for (const step of by) wide[i + step] = 1;
+  return wide;
 }
 
 /** The view is large enough that the rim of a body, which is of half pixels, is a small part of it. */
@@ -156,10 +165,10 @@ export const onlyView = (page, isOnly) => page.evaluate((hidden) => {
 
 /** The named view on the page, and which of its pixels differ from those of a page that cannot load `part`: the routes
  *  that are blocked then (or what is answered instead), and a piece of the address of what is loaded last. `status`: what the page says when it shows
- *  the moment that is compared. The overlays are hidden, but leave their room. */
+ *  the moment that is compared. The overlays are hidden, but leave their room. part.query: of the address, beside the rest. */
 export async function whatCovers({ url }, camera, part, status = { 'status-note': 'ended' }, viewport = TALL) {
   const open = async (hasPart) => {
-    const visit = await openPage(`${url}?hide=shadows`, {
+    const visit = await openPage(`${url}?quality=steady&hide=shadows${part.query ?? ''}`, {
       colorScheme: 'dark', viewport,
       beforeLoad: async (page) => {
         const block = (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' });

@@ -211,6 +211,23 @@ test('an address that is nonsense is a page as it begins', async () => {
   await close();
 });
 
+/** A mark has the sample that the picture shows, not the newest one. Of live pictures the fixture draws every fourth state.
+ *  @param {any} page
+ *  @param {() => Promise<number>|null} stateIn  of the picture; null: it is live */
+async function markedIsInPicture(page, stateIn) {
+  for (let i = 0; i < 4; ++i) {
+    const before = await page.evaluate(async () => (await (await fetch('api/v1/marks')).json()).marks.length);
+    const wanted = await stateIn();
+    await page.keyboard.press('2');
+    const mark = await page.waitForFunction(async (count) => {
+      const { marks } = await (await fetch('api/v1/marks')).json();
+      return marks.length > count && marks.at(-1);
+    }, before, LONG).then((handle) => handle.jsonValue());
+    if (wanted === null) assert.equal(mark.at.state % 4, 0, `marked ${mark.at.state}, which is in no picture`);
+    else assert.equal(mark.at.state, wanted);
+  }
+}
+
 for (const [name, options] of [['desk', {}], ['phone', { viewport: PHONE, colorScheme: 'dark' }]]) {
   test(`without WebGL the server's picture takes the stage, and the cameras are its cameras, on a ${name}`, async () => {
     const { page, problems, close } = await open('', { ...options, beforeLoad: noWebGl });
@@ -221,6 +238,33 @@ for (const [name, options] of [['desk', {}], ['phone', { viewport: PHONE, colorS
     await page.waitForFunction(() => document.querySelector('#cameras [aria-pressed="true"]')?.dataset.camera === 'top'
       && document.getElementById('picture-camera').value === 'top', null, LONG);
     await saveScreenshot(page, `no_webgl_${name}`);
+    await markedIsInPicture(page, () => null);
+    await page.click('#play');
+    // The fixture draws the number of a former state in green and blue.
+    const drawn = () => page.waitForFunction(() => {
+      const image = document.getElementById('picture-image'), canvas = document.createElement('canvas').getContext('2d');
+      if (image.hidden || image.naturalWidth === 0 || document.body.dataset.time !== 'behind') return null;
+      canvas.drawImage(image, 0, 0);
+      const [red, green, blue] = canvas.getImageData(5, 5, 1, 1).data;
+      return red === 255 && { state: 256 * green + blue };
+    }, null, LONG).then((handle) => handle.jsonValue());
+    const { state } = await drawn();
+    await page.keyboard.press('Shift+ArrowLeft');
+    await page.waitForFunction(([before]) => {
+      const image = document.getElementById('picture-image'), canvas = document.createElement('canvas').getContext('2d');
+      canvas.drawImage(image, 0, 0);
+      const [, green, blue] = canvas.getImageData(5, 5, 1, 1).data;
+      return 256 * green + blue < before;
+    }, [state], LONG);
+    await markedIsInPicture(page, async () => (await drawn()).state);
+    await saveScreenshot(page, `no_webgl_behind_${name}`);
+    await page.keyboard.press('Escape');
+    await page.waitForFunction(() => {
+      const image = document.getElementById('picture-image'), canvas = document.createElement('canvas').getContext('2d');
+      if (image.hidden || document.body.dataset.time !== 'live') return false;
+      canvas.drawImage(image, 0, 0);
+      return canvas.getImageData(5, 5, 1, 1).data[0] < 100;
+    }, null, LONG);
     assert.deepEqual(problems.filter((line) => !/Error creating WebGL context/.test(line)), []);
     await close();
   });

@@ -13,11 +13,37 @@ after(async () => {
 });
 
 const never = { count: 0, count_10s: 0, last_micros: null };
-const good = { samples: 45678, lost: 12, incomplete: never, loss_10s: 0, loss: 0.0002627, jitter_ms: 0.8, gaps: never, rejected: [] };
+const good = { samples: 45678, lost: 12, incomplete: never, loss_10s: 0, loss: 0.0002627, jitter_ms: 0.8, gaps: never, rejected: [], clocks: [] };
 const say = (health) => site.say(`stream ${JSON.stringify(health)}`);
 const wordIs = (page, pattern) => page.waitForFunction(
   (text) => new RegExp(text).test(document.getElementById('status-word').textContent), pattern, LONG);
 const rowsOf = (page) => page.$$eval('#stream-rows tr', (rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+for (const [name, viewport] of [['desktop', DESKTOP], ['phone', PHONE]]) {
+  test(`clocks that differ are named, with the delay of each node, on ${name}`, async () => {
+    const clock = { node: '/bridge_a', offset_ms: 0.3, uncertainty_ms: 1.2, delay_ms: 3.4, most_delay_ms: 12.8, lag_ms: 3.1, most_lag_ms: 12.5,
+      shift_ms: 0, excess_ms: 0, warning: '' };
+    const warning = 'the clock of /bridge_b is 2.98 s behind the server\'s';
+    say({ ...good, jitter_ms: null, clocks: [clock, { ...clock, node: '/bridge_b', offset_ms: -2980.1, delay_ms: 51.2, most_delay_ms: 68, warning }] });
+    const { page, problems, close } = await openPage(site.url, { viewport });
+    await page.waitForFunction(() => document.getElementById('stream-line').textContent === '0.0 % lost · clock of /bridge_b 2.98 s behind', null, LONG);
+    await chooseTab(page, 'loads');
+    await page.locator('#stream summary').click();
+    await page.waitForFunction(() => document.querySelectorAll('#stream-rows tr').length === 10, null, LONG);
+    assert.deepEqual((await rowsOf(page)).slice(5, 9).map((row) => row.slice(0, 2)), [
+      ['Clock of /bridge_a', 'equal ± 1.2 ms'], ['Delay from /bridge_a', '3.4 ms to 13 ms'],
+      ['Clock of /bridge_b', '2.98 s ± 1.2 ms behind'], ['Delay from /bridge_b', '51 ms to 68 ms']]);
+    const { scroll, client } = await page.evaluate(() => ({
+      scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
+    assert.ok(scroll <= client, `${scroll} px wide on ${client}`);
+    await page.locator('#stream').scrollIntoViewIfNeeded();
+    await saveScreenshot(page, `clocks_${name}`);
+    say({ ...good, jitter_ms: null, clocks: [{ ...clock, excess_ms: 2400, warning: 'the stamps of /bridge_a advance' }] });
+    await page.waitForFunction(() => document.getElementById('stream-line').textContent === '0.0 % lost · clock of /bridge_a 0.3 ms ahead, its stamps slowed down', null, LONG);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+}
 
 for (const [name, viewport, colorScheme] of [
   ['desktop', DESKTOP, 'light'], ['desktop_dark', DESKTOP, 'dark'], ['phone', PHONE, 'light'], ['phone_dark', PHONE, 'dark']]) {
@@ -88,5 +114,12 @@ test('what is over is over: the lamp is live again, and the table has it as hist
   assert.equal(await page.locator('#stream-rows .recent').count(), 0);
   assert.equal((await rowsOf(page))[5][2], '4');
   assert.ok(await page.locator('#diagnostics').isHidden(), 'a datagram refused once is no problem of now');
+  say({ ...good, clock_steps: { count: 1, count_10s: 1, last_micros: 1e6 } });
+  await page.waitForFunction(() => /^The clock of the server was set: /.test(document.getElementById('banner').textContent), null, LONG);
+  await wordIs(page, '^Live$');
+  await saveScreenshot(page, 'clock_set');
+  say({ ...good, clock_steps: { count: 1, count_10s: 0, last_micros: 1e6 } });
+  await page.waitForFunction(() => document.getElementById('banner').hidden
+    && document.querySelectorAll('#stream-rows tr')[5].cells[0].textContent === 'Clock of the server set', null, LONG);
   await close();
 });

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
 import { promisify } from 'node:util';
-import { closeBrowser, endWithTests, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, endWithTests, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -54,8 +54,12 @@ test('a paused page stays at its sample while the stream goes on, says so, and s
   await sampleIs(page, sample - 2);
   await page.click('#step-forward');
   await sampleIs(page, sample - 1);
-  assert.match(await text(page, 'picture-note'), /newest sample only/);
   await saveScreenshot(page, 'behind_desktop');
+  await chooseTab(page, 'picture');
+  await page.locator('#picture-image').waitFor({ state: 'visible', ...LONG });  // of this moment
+  const asked = page.waitForRequest(/snapshot\.png\?state=\d+&.*width=1920/);
+  await page.click('#save-picture');
+  await asked;
   await page.keyboard.press('Escape');
   await statusIs(page, /^Live$/);
   await page.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 60, sample, LONG);
@@ -101,6 +105,34 @@ test('two viewers are at different moments, and a third is live', async () => {
   assert.equal(await text(three.page, 'status-word'), 'Live');
   for (const each of [one, two, three]) await each.close();
 });
+
+for (const [layout, viewport] of [['desk', DESKTOP], ['phone', PHONE], ['wall', { width: 1280, height: 720 }], ['kiosk', { width: 1280, height: 800 }]]) {
+  test(`two viewers have times and cameras of their own, and a third is live, in the layout ${layout}`, async () => {
+    const { page: past, close } = await openLive(2);
+    await past.keyboard.press('Space');
+    await past.waitForFunction(() => new URL(location.href).searchParams.has('t'), null, LONG);
+    const t = Number(new URL(past.url()).searchParams.get('t'));
+    await close();
+    const open = (query) => openPage(`${site.url}?view=${layout}&${query}`, { viewport });
+    const viewers = [await open(`t=${t}&camera=front`), await open(`t=${t - 1}&camera=top`), await open('camera=front')];
+    const [one, two, live] = viewers.map(({ page }) => page);
+    for (const page of [one, two]) await statusIs(page, /^Behind −[1-9]/);
+    await statusIs(live, /^Live$/);
+    const [first, second] = [await sampleOf(one), await sampleOf(two)];
+    assert.ok(Math.abs(first - second - 60) <= 2, `${first} and ${second}, a second apart`);
+    await live.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 30, first, LONG);
+    assert.deepEqual([await sampleOf(one), await sampleOf(two)], [first, second]);
+    const [front, top] = [await pixelsOf(one, '#view canvas'), await pixelsOf(two, '#view canvas')];
+    let differ = 0;
+    for (let i = 0; i < front.data.length; i += 4) if (Math.abs(front.data[i] - top.data[i]) > 40) ++differ;
+    assert.ok(differ > 0.005 * front.data.length / 4, `${differ} pixels differ between two cameras`);
+    await saveScreenshot(two, `two_viewers_${layout}`);
+    for (const viewer of viewers) {
+      assert.deepEqual(viewer.problems, []);
+      await viewer.close();
+    }
+  });
+}
 
 test('playing goes on from the pause at the speed that is chosen, and catches up at 8 times', async () => {
   const { page, close } = await openLive(3);

@@ -1,5 +1,6 @@
 // `kinescope batch` and `kinescope jobs` as users start them.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -17,7 +18,9 @@
 #include <vector>
 
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
+#include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -124,6 +127,72 @@ TEST_F(Batch, DoesJobsOfEveryCommand) {
   }
   EXPECT_EQ(results[1].at("labels").at("person"), "P1");
   EXPECT_EQ(results[0].at("outputs").size(), 2u);  // with its record
+}
+
+// Also without being root: a user namespace has mounts of its own.
+bool CanMount() {
+  return testing::RunProgram({"/usr/bin/unshare", "-rm", "/bin/true"}).exit_code == 0;
+}
+
+// A disk of `kilobytes` at `folder`, on which the list is done, and then `after`.
+ProgramResult OnSmallDisk(const fs::path& folder, int kilobytes, const std::string& list,
+                          const std::string& after) {
+  const std::string script = fmt::format(
+      "mount -t tmpfs -o size={0}k none '{1}' && {{ '{2}' batch '{3}'; code=$?; {4}; exit $code; "
+      "}}",
+      kilobytes, folder.string(), testing::KinescopePath(), list, after);
+  return testing::RunProgram({"/usr/bin/unshare", "-rm", "/bin/bash", "-c", script});
+}
+
+TEST_F(Batch, NamesJobsWhoseDiskIsFullAndDoesTheOthers) {
+  if (!CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
+  fs::create_directory(In("disk"));
+  json large = Loads("large"), small = Loads("small"), elsewhere = Loads("elsewhere");
+  large["options"].update({{"csv", In("disk/large.csv")}, {"seconds", 5}});
+  small["options"]["csv"] = In("disk/small.csv");
+  small["options"]["seconds"] = 0.02;
+  WriteList({large, small, elsewhere});
+  const ProgramResult result =
+      OnSmallDisk(In("disk"), 64, In("jobs.jsonl"), fmt::format("ls '{}'", In("disk")));
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_EQ(States(), (std::map<std::string, std::string>{
+                          {"large", "failed"}, {"small", "done"}, {"elsewhere", "done"}}));
+  for (const json& each : Results()) {
+    if (each.at("id") != "large") continue;
+    EXPECT_THAT(each.at("reason"), AllOf(HasSubstr("large.csv"), HasSubstr("No space left")));
+  }
+  EXPECT_THAT(result.out, AllOf(HasSubstr("small.csv"), Not(HasSubstr("disk/large.csv.part"))));
+  EXPECT_THAT(result.out, HasSubstr("kinescope batch")) << "it does not say what to do next";
+}
+
+// Nobody would know what has been done.
+TEST_F(Batch, SaysThatResultsAreNotThereWhenTheirDiskIsFull) {
+  if (!CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
+  fs::create_directory(In("disk"));
+  std::vector<json> jobs;
+  for (int i = 0; i < 20; ++i) {
+    jobs.push_back(Loads(std::to_string(i)));
+    jobs.back()["labels"]["person"] = std::string(150, 'p');
+  }
+  WriteList(jobs);
+  fs::rename(In("jobs.jsonl"), In("list.jsonl"));
+  const std::string results = In("disk/r.jsonl");
+  const std::string script = fmt::format(
+      "mount -t tmpfs -o size=8k none '{0}' && {{ '{1}' batch '{2}' --results '{3}'; code=$?; "
+      "cp '{3}' '{4}'; mount -o remount,size=1m '{0}'; '{1}' batch '{2}' --results '{3}' --check; "
+      "'{1}' batch '{2}' --results '{3}' && '{1}' batch '{2}' --results '{3}' --check; "
+      "cp '{3}' '{5}'; exit $code; }}",
+      In("disk"), testing::KinescopePath(), In("list.jsonl"), results, In("full.jsonl"),
+      In("jobs.results.jsonl"));
+  const ProgramResult result =
+      testing::RunProgram({"/usr/bin/unshare", "-rm", "/bin/bash", "-c", script});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("r.jsonl"), HasSubstr("No space left")));
+  for (const json& each : Results("full.jsonl"))
+    EXPECT_EQ(each.at("state"), "done") << "half a line";
+  EXPECT_LT(Results("full.jsonl").size(), 20u);
+  EXPECT_EQ(States().size(), 20u) << "with room, the same command goes on";
+  EXPECT_THAT(result.out, HasSubstr("20 of 20 jobs complete"));
 }
 
 TEST_F(Batch, WritesTheSameBytesAsTheCommands) {
@@ -296,6 +365,20 @@ TEST_F(Batch, IsStoppedAndGoesOn) {
     EXPECT_EQ(result.at("state"), "done");
     EXPECT_EQ(result.at("attempts"), result.at("id") == "waits" ? 2 : 1) << result;
   }
+}
+
+// Slurm signals batch and workers at once, in any order.
+TEST_F(Batch, DoesNotCallJobsFailedWhoseProcessWasStopped) {
+  WriteList({JobThatWaits("waits"), Loads("later")});
+  auto batch = std::async(std::launch::async, [&] { return Run(); });
+  const int pipe = ::open(In("waits.mvnx").c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(pipe, 0);
+  ASSERT_EQ(::kill(ReaderOf(In("waits.mvnx")), SIGTERM), 0);
+  const ProgramResult result = batch.get();
+  ::close(pipe);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("2 jobs: 1 complete, 0 failed, 1 interrupted"));
+  EXPECT_EQ(States().at("waits"), "interrupted");
 }
 
 TEST_F(Batch, DoesTheOthersWhenAJobCrashes) {

@@ -155,7 +155,7 @@ def write_rules(folder):
 
 
 def try_batch(line, words, folder):
-    """`jobs` and `batch`, with a trial of a study and folders for what is made of it."""
+    """`jobs`, `batch` and `study`, with a trial of a study and folders for what is made of it."""
     folder = pathlib.Path(folder)
     for name in ("trials", "clips", "loads"):
         (folder / name).mkdir()
@@ -164,6 +164,12 @@ def try_batch(line, words, folder):
         return problem
     jobs = [{"id": f"{camera}", "command": "render", "options": {"source": "trials/S07_lift_001.mvnx", "camera": camera, "size": "64x64",
                                                                 "out": f"clips/{camera}.png"}} for camera in ("front", "side")]
+    if words[1] == "study" or "loads.jsonl" in words:
+        problem = run(["bash", "-c", f"{shlex.quote(PROGRAM)} jobs 'trials/*.mvnx' --command loads --samples none --json 'loads/{{source}}.json' "
+                                     "--labels '{person}_{condition}_{trial}' > loads.jsonl"], folder)
+        problem = problem or (words[1] == "study" and run([PROGRAM, "batch", "loads.jsonl"], folder))
+        if problem:
+            return problem
     if words[1] == "batch":
         (folder / "jobs.jsonl").write_text("".join(json.dumps(job) + "\n" for job in jobs))
     if "--check" in words:
@@ -266,7 +272,7 @@ def attempt(line, words, folder):
             return "never: ros_source_test runs it with a ROS graph"
         if not SETUP:
             return "skip: built without ROS"
-    if words[:2] in (["kinescope", "jobs"], ["kinescope", "batch"]):
+    if words[:2] in (["kinescope", "jobs"], ["kinescope", "batch"], ["kinescope", "study"]):
         return try_batch(line, words, folder)
     if name == "kinescope" or name.endswith("/bin/kinescope"):
         return try_kinescope([RECORDING if w == "recording.mvnx" else w for w in words], folder)

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Runs the jobs of docs/golden_example as a CI server does: in a copy of it, with an empty environment.
 Usage: golden_example_test.py PROGRAM"""
+import collections
+import json
 import os
 import pathlib
 import re
@@ -40,6 +42,28 @@ for job in ("github.yml", "gitlab.yml"):
         assert suite.get("failures") == "1", xml.etree.ElementTree.tostring(suite)
         accepted = run(["kinescope", "golden", "accept", "golden-run"], folder)
         assert accepted.returncode == 2 and "CI=true" in accepted.stdout, accepted.stdout
+
+# The same with several jobs: the server puts the number of each into its command.
+SHARED = {
+    "github_shards.yml": [{"${{ matrix.shard }}": f"{number}/4"} for number in (1, 2, 3, 4)],
+    "gitlab_shards.yml": [{"$CI_NODE_INDEX": str(number), "$CI_NODE_TOTAL": "4"} for number in (1, 2, 3, 4)],
+}
+for job, values in SHARED.items():
+    command = re.search(r"- (?:run: )?(kinescope .*)", (EXAMPLE / job).read_text()).group(1)
+    seen = collections.Counter()
+    with tempfile.TemporaryDirectory() as top:
+        folder = pathlib.Path(top) / "copy"
+        shutil.copytree(EXAMPLE, folder)
+        for names in values:
+            words = command
+            for name, value in names.items():
+                assert name in words, f"{job}: no {name} in {words}"
+                words = words.replace(name, value)
+            share = run(shlex.split(words), folder)
+            assert share.returncode == 0, f"{job}: {share.stdout}"
+            seen.update(case["case"] for case in json.loads((folder / "golden-run/run.json").read_text())["cases"])
+    assert seen == {"lift_bend": 1, "no_data": 1}, f"{job}: {seen}"
+
 DOCS = EXAMPLE.parent
 
 

@@ -1,5 +1,6 @@
 // What may lie in a folder of golden cases, several who accept there at a time, and results of
 // earlier runs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,45 @@ TEST_F(GoldenCheck, RefusesFilesThatCannotBeCasesAndComparesTheOthers) {
                                 HasSubstr("bend                     same")));
   EXPECT_TRUE(fs::exists(case_ / "out/junit.xml"));
   EXPECT_TRUE(fs::exists(case_ / "out/report.html"));
+}
+
+// As several jobs of a CI server do.
+TEST_F(GoldenCheck, SharesCasesAndFindingsAmongProcesses) {
+  for (const char* name : {"one", "two", "three", "four"}) WriteCase(name, kSmall);
+  ASSERT_EQ(Golden({"update", case_}).exit_code, 0);
+  fs::copy(case_ / "one.png", case_ / "of_nothing.png");
+  std::map<std::string, int> found;
+  int failed = 0;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    const ProgramResult result = Check({"--shard", shard});
+    EXPECT_THAT(result.out, HasSubstr(std::string("Shard ") + shard + ": "));
+    failed += result.exit_code;
+    for (const char* name : {"bend", "one", "two", "three", "four", "of_nothing"}) {
+      found[name] += ("\n" + result.out).find(std::string("\n") + name) != std::string::npos;
+    }
+  }
+  EXPECT_EQ(failed, 1) << "only the share of the picture that belongs to no case";
+  for (const auto& [name, count] : found) EXPECT_EQ(count, 1) << name;
+}
+
+TEST_F(GoldenCheck, HasNothingToCompareInAnEmptyShare) {
+  int empty = 0;
+  for (const char* shard : {"1/2", "2/2"}) {
+    const ProgramResult result = Check({"--shard", shard, "--junit", case_ / "out/junit.xml"});
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+    EXPECT_TRUE(fs::exists(case_ / "out/junit.xml"));
+    empty += result.out == fmt::format("Shard {}: There is no picture to compare\n", shard);
+  }
+  EXPECT_EQ(empty, 1);
+}
+
+// Variables that a CI server has not set must not let every job compare everything.
+TEST_F(GoldenCheck, RefusesAShareWithoutNumbers) {
+  for (const char* shard : {"/", "", "0/2", "3/2"}) {
+    const ProgramResult result = Check({"--shard", shard});
+    EXPECT_EQ(result.exit_code, 2) << shard;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("shard"), HasSubstr("K/N"))) << shard;
+  }
 }
 
 TEST_F(GoldenCheck, LosesNothingThatSeveralAcceptAtATime) {

@@ -130,7 +130,7 @@ def operations():
 # Of an operator's request with the example of the description; else 200.
 STATUS = {
     "openSocket": 426,  # the upgrade is not asked for
-    "acknowledgeAlarm": 409,  # there is none
+    "acknowledgeAlarm": 409,  # there is none of this number
     "setRecording": 409,  # of a source that is no live stream
     "downloadFile": 404,
 }
@@ -187,6 +187,8 @@ def check_errors(server, state):
             ("/api/v1/skin/{person}/{revision}", "GET", "/api/v1/skin/0/99", None, 404),
             ("/api/v1/snapshot.png", "GET", "/api/v1/snapshot.png?width=15", None, 400),
             ("/api/v1/snapshot.png", "GET", "/api/v1/snapshot.png?camera=fron", None, 400),
+            ("/api/v1/snapshot.png", "GET", f"/api/v1/snapshot.png?width=64&height=64&state={number}", None, 200),
+            ("/api/v1/snapshot.png", "GET", f"/api/v1/snapshot.png?state={number + 1000000}", None, 409),
             ("/api/v1/ws", "GET", "/api/v1/ws", None, 426)]:
         operation = DESCRIPTION["paths"][operation_path][method.lower()]
         expect(f"{method} {target} {body or ''}", server, operation, status, method, target, OPERATOR, body)
@@ -219,6 +221,23 @@ def check_marks(server):
         fail(f"expected a point, a span and a removed mark, got {kinds}")
 
 
+def check_alarm(server):
+    """An alarm is raised, a viewer sees it and may not acknowledge it, an operator does, and then it is acknowledged for all."""
+    alarms, order = (DESCRIPTION["paths"][path][method] for path, method in
+                     [("/api/v1/alarms", "get"), ("/api/v1/acknowledge", "post")])
+    raised = server.wait_for("/api/v1/alarms", lambda answer: answer["alarms"])["alarms"][-1]
+    if (raised["rule"], raised["is_shown"], raised["acknowledged"]) != ("always", True, None):
+        fail(f"expected an alarm of the rule “always” that nobody has acknowledged, got {raised}")
+    body = {"id": raised["id"]}
+    expect("acknowledging as viewer", server, order, 403, "POST", "/api/v1/acknowledge", VIEWER, body)
+    answer = expect("acknowledging", server, order, 200, "POST", "/api/v1/acknowledge", OPERATOR, body)
+    expect("acknowledging again", server, order, 409, "POST", "/api/v1/acknowledge", OPERATOR, body)
+    seen = expect("alarms as viewer", server, alarms, 200, "GET", "/api/v1/alarms", VIEWER)["alarms"]
+    for each in [answer] + [alarm for alarm in seen if alarm["id"] == raised["id"]]:
+        if (each["acknowledged"] or {}).get("role") != "operator" or not each["is_on"]:
+            fail(f"expected an alarm that is on and that an operator has acknowledged, got {each}")
+
+
 def check_parts():
     """People made of parts, without pictures."""
     with Server("--figure", "urdf", "--pictures", "off") as server:
@@ -236,13 +255,17 @@ def check_parts():
 ROBOT = tempfile.NamedTemporaryFile("w", suffix=".urdf")
 ROBOT.write("<robot name='arm'><link name='base'><visual><geometry><box size='1 1 1'/></geometry></visual></link></robot>")
 ROBOT.flush()
-with Server("--robot", ROBOT.name) as server:
+RULES = tempfile.NamedTemporaryFile("w", suffix=".yaml")
+RULES.write("rules:\n  - {name: always, value: compression, above: 0}\n")
+RULES.flush()
+with Server("--robot", ROBOT.name, "--alarms", RULES.name) as server:
     state = server.wait_for("/api/v1/state", lambda state: state["people"] and state["liveness"] == "live")
     server.wait_for("/api/v1/diagnostics", lambda diagnostics: diagnostics.get("stream"))
     server.wait_until_found("/api/v1/surroundings.glb")
     check_roles(server, state)
     check_errors(server, state)
     check_marks(server)
+    check_alarm(server)
 check_parts()
 print(f"{len(list(operations()))} operations checked, {failed} problems")
 sys.exit(1 if failed else 0)

@@ -320,23 +320,27 @@ struct PdfWords {
   double least_pt = 1e9;  // size of their font
   double page_width_pt = 0, page_height_pt = 0;
 };
+
+// xMax="12.5" in a line of pdftotext.
+double ValueIn(const std::string& line, const std::string& name) {
+  const std::size_t at = line.find(name + "=\"");
+  return at == std::string::npos ? NAN : std::stod(line.substr(at + name.size() + 2));
+}
+
 PdfWords WordsOfPdf(const std::string& path) {
   const ProgramResult words = RunProgram({"/usr/bin/pdftotext", "-bbox", path, "-"});
   EXPECT_EQ(words.exit_code, 0) << words.err;
-  const auto value = [](const std::string& line, const std::string& name) {
-    const std::size_t at = line.find(name + "=\"");
-    return at == std::string::npos ? NAN : std::stod(line.substr(at + name.size() + 2));
-  };
   PdfWords found;
   std::istringstream lines(words.out);
   for (std::string line; std::getline(lines, line);) {
     if (line.find("<page") != std::string::npos) {
-      found.page_width_pt = value(line, "width");
-      found.page_height_pt = value(line, "height");
+      found.page_width_pt = ValueIn(line, "width");
+      found.page_height_pt = ValueIn(line, "height");
     }
     if (line.find("<word") == std::string::npos) continue;
     constexpr double kBox = 1.164;  // of DejaVu Sans: ascent and descent, em
-    found.least_pt = std::min(found.least_pt, (value(line, "yMax") - value(line, "yMin")) / kBox);
+    found.least_pt =
+        std::min(found.least_pt, (ValueIn(line, "yMax") - ValueIn(line, "yMin")) / kBox);
     ++found.count;
   }
   return found;
@@ -360,6 +364,42 @@ TEST_F(RenderCommand, MakesAFigureOfAWidthInPrintWithReadableTexts) {
     EXPECT_GE(words.least_pt, kSmallestPt - 0.01);
     EXPECT_GT(words.count, 10);
   }
+}
+
+TEST_F(RenderCommand, PrintsThePlotsNumbersAsLargeAsOtherTexts) {
+  const std::vector<std::string> figure = {"--out",     Path("a.png"),     "--force", "--size",
+                                           "1200x1050", "--width_mm",      "80",      "--dpi",
+                                           "100",       "--overlay_layer", "pdf",     "--json"};
+  Lines(Render(figure, "demo:lift"));
+  const int without = WordsOfPdf(Path("a.pdf")).count;
+  std::vector<std::string> plotted = figure;
+  plotted.insert(plotted.end(), {"--plot", "l5_s1,right_knee"});
+  Lines(Render(plotted, "demo:lift"));
+  const PdfWords words = WordsOfPdf(Path("a.pdf"));
+  EXPECT_GT(words.count, without + 4) << "the plot is there";
+  EXPECT_GE(words.least_pt, kSmallestPt - 0.01);
+}
+
+TEST_F(RenderCommand, EndsALongTitleBeforeTheStatus) {
+  Lines(Render({"--out", Path("a.png"), "--size", "1280x720", "--width_mm", "80", "--dpi", "300",
+                "--title", "Lifting a box of fourteen kilograms from the floor to a shelf",
+                "--overlay_layer", "pdf", "--json"},
+               "demo:lift"));
+  const ProgramResult words = RunProgram({"/usr/bin/pdftotext", "-bbox", Path("a.pdf"), "-"});
+  double end_of_title = NAN, begin_of_status = NAN;
+  std::istringstream lines(words.out);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("…") != std::string::npos) end_of_title = ValueIn(line, "xMax");
+    if (line.find("RECORDED") != std::string::npos) begin_of_status = ValueIn(line, "xMin");
+  }
+  EXPECT_LT(end_of_title + 5, begin_of_status) << words.out;
+}
+
+TEST_F(RenderCommand, MakesALayerOfTheLinesAloneWithoutOverlays) {
+  Lines(Render({"--out", Path("a.png"), "--size", "640x480", "--style", "line", "--no_overlays",
+                "--overlay_layer", "pdf", "--json"},
+               "demo:lift"));
+  EXPECT_EQ(WordsOfPdf(Path("a.pdf")).count, 0);
 }
 
 // The command of docs/pictures.md, on the page where its reader has it.

@@ -6,6 +6,8 @@
 
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "server/mvn/encode.h"
 #include "tests/process.h"
@@ -82,6 +84,32 @@ TEST(Terminal, ShowsHowFarTheFirstPassOfAClipIs) {
   std::vector<std::string> piped = command;
   piped.emplace_back(folder / "piped.mp4");
   EXPECT_THAT(Kinescope(piped).err, Not(HasSubstr("first pass")));
+}
+
+TEST(Terminal, IsNotNeededForProgressThatProgramsRead) {
+  const TempFolder folder;
+  std::vector<std::string> command = {"loads",  "demo:lift",           "--seconds",  "1",
+                                      "--json", folder / "loads.json", "--progress", "json"};
+  const ProgramResult shown = Kinescope(command);
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  nlohmann::json last;
+  std::istringstream lines(shown.err);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("\"progress\"") != std::string::npos) last = nlohmann::json::parse(line);
+  }
+  ASSERT_TRUE(last.is_object()) << shown.err;
+  EXPECT_EQ(last.at("done"), last.at("total"));
+  EXPECT_EQ(last.at("seconds_left"), 0);
+  ExpectHarmless(shown.err);
+
+  command.back() = "off";
+  const std::string line =
+      fmt::format("'{}' '{}'", testing::KinescopePath(), fmt::join(command, "' '"));
+  EXPECT_EQ(
+      testing::RunProgram({"/usr/bin/script", "-qec", line, "/dev/null"}).out.find("per second"),
+      std::string::npos);
+  command.back() = "loud";
+  ExpectRefusal(Kinescope(command), "--progress");
 }
 
 TEST(Terminal, IsNotSteeredByNamesInFiles) {

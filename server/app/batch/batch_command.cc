@@ -133,7 +133,7 @@ class Batch {
     PrintSummary();
     output_.Finish();
     if (StopSignal() != 0) return 128 + StopSignal();
-    return counts_.failed > 0 || !faults_.empty() ? 1 : 0;
+    return counts_.failed + counts_.interrupted > 0 || !faults_.empty() ? 1 : 0;
   }
 
  private:
@@ -245,6 +245,7 @@ class Batch {
           counts_.failed,
           counts_.interrupted > 0 ? fmt::format(", {} interrupted", counts_.interrupted) : "",
           path_);
+    if (counts_.interrupted > 0) Print("To do the interrupted ones: the same again\n");
     if (counts_.failed > 0) Print("To do the failed ones again: the same with --retry failed\n");
   }
 
@@ -320,6 +321,7 @@ Command BatchCommand() {
   const auto values = std::make_shared<BatchOptions>();
   Command command;
   command.name = "batch";
+  command.shows_progress = true;
   command.about =
       "Does the jobs of a list: render, loads, convert and golden, on one machine or many.\n"
       "  kinescope jobs 'trials/*.mvnx' --out 'clips/{source}.mp4' > jobs.jsonl\n"

@@ -48,7 +48,11 @@ class Slot {
     try {
       if (worker_ == nullptr) worker_ = std::make_unique<ProcessGroup>(SettingsOfWorker());
       const std::optional<std::string> answer = Ask(job, result);
-      if (answer) return ReadResult(*answer);
+      if (answer) {
+        JobResult answered = ReadResult(*answer);
+        if (answered.state == JobState::kInterrupted) worker_.reset();  // it does no more jobs
+        return answered;
+      }
     } catch (const std::exception& error) {
       result.state = JobState::kFailed;
       result.reason = error.what();
@@ -99,9 +103,11 @@ class Slot {
   }
 
   std::optional<std::string> Unanswered(JobResult& result) {
-    if (StopRequested()) return Interrupted(result);
+    const std::string ending = worker_->End();
+    // A worker that was told to stop ends so.
+    if (StopRequested() || ending == "exit code 0") return Interrupted(result);
     result.state = JobState::kFailed;
-    result.reason = "its process ended with " + worker_->End();
+    result.reason = "its process ended with " + ending;
     std::string last;
     while (auto line = worker_->TakeLine()) last = *std::move(line);
     if (!last.empty()) result.reason += ": " + last;

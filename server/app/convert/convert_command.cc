@@ -311,6 +311,7 @@ Command ConvertCommand() {
   const auto values = std::make_shared<ConvertOptions>();
   Command command;
   command.name = "convert";
+  command.shows_progress = true;
   command.about =
       "Converts a motion from any source into files for other programs: CSV tables and MVNX 4.\n"
       "  kinescope convert take.pcap --out take.csv --out take.mvnx\n"

@@ -7,8 +7,8 @@
 #include "core/system/json_text.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_new.h"
-#include "server/app/golden/golden_report_text.h"
 #include "server/app/print.h"
+#include "server/app/shell_word.h"
 
 namespace kinescope::app {
 namespace {

@@ -15,16 +15,17 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
+#include "server/app/batch/shard.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_github.h"
 #include "server/app/golden/golden_jobs.h"
 #include "server/app/golden/golden_junit.h"
 #include "server/app/golden/golden_report.h"
-#include "server/app/golden/golden_report_text.h"
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_verdict_json.h"
 #include "server/app/print.h"
+#include "server/app/shell_word.h"
 
 namespace kinescope::app {
 namespace {
@@ -34,6 +35,7 @@ struct CheckOptions {
   options::Text out{"out/golden"}, junit, summary;
   options::Flag json, is_strict, keeps_all, answers;
   GoldenJobOptions jobs;
+  ShardValue shard;
 };
 
 void PrintVerdict(const CaseVerdict& verdict) {
@@ -48,7 +50,9 @@ void PrintVerdict(const CaseVerdict& verdict) {
 }
 
 void PrintSummary(const OutcomeCounts& counts, const CheckOptions& options) {
-  Print("{}\n", Headline(counts));
+  const std::string share =
+      options.shard->count == 1 ? "" : fmt::format("Shard {}: ", options.shard.ToText());
+  Print("{}{}\n", share, Headline(counts));
   if (counts.ExitCode() == 0) return;
   Print("Report: {}/report.html; to accept what it shows: kinescope golden review {}\n",
         *options.out, ShellWord(*options.out));
@@ -174,7 +178,7 @@ int CheckAll(const CheckOptions& options) {
   GoldenSuite suite;
   JobSettings jobs;
   try {
-    suite = options.cases.Find();
+    suite = ShareOf(options.cases.Find(), *options.shard);
     jobs = options.jobs.Start(*options.cases.folder, suite.cases.size(), settings);
   } catch (const std::exception& error) {
     ReportFailure(options, error.what());
@@ -195,6 +199,9 @@ Command GoldenCheckCommand() {
   check.options("out", values->out,
                 "folder for the report, the verdicts (run.json) and the pictures of cases that are "
                 "not the same");
+  check.options("shard", values->shard,
+                "the share of the cases to compare, by a hash of their names, such as 2/4: for "
+                "several jobs of a CI server");
   check.options("strict", values->is_strict,
                 "only equal bytes in the accepted environment are the same");
   check.options("all_pictures", values->keeps_all,

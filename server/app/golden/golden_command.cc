@@ -26,8 +26,8 @@ JobSettings GoldenJobOptions::Start(const std::string& folder, std::size_t cases
                                     const CheckSettings& check) const {
   JobSettings settings;
   const std::int64_t asked = *jobs > 0 ? *jobs : CoresHere();
-  settings.jobs =
-      static_cast<int>(std::clamp<std::int64_t>(asked, 1, static_cast<std::int64_t>(cases)));
+  settings.jobs = static_cast<int>(
+      std::max<std::int64_t>(1, std::min(asked, static_cast<std::int64_t>(cases))));
   settings.limit_secs = *case_limit_secs;
   settings.command = CommandOfJobs(folder, check, backend);
   render::UseFillingThreads(FillingThreads(CoresHere(), settings.jobs));

@@ -9,6 +9,7 @@
 #include "core/system/utf8.h"
 #include "server/app/golden/golden_report_text.h"
 #include "server/app/html.h"
+#include "server/app/shell_word.h"
 
 namespace kinescope::app {
 namespace {

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <set>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "render/font.h"
 #include "server/app/golden/dashboard_drawing.h"
 #include "server/app/golden/page_drawing.h"
+#include "server/app/html.h"
 
 namespace kinescope::app {
 namespace {
@@ -28,17 +27,6 @@ bool IsAddress(const std::string& page) {
   constexpr std::array<const char*, 3> kSchemes = {"http://", "https://", "file://"};
   return std::any_of(kSchemes.begin(), kSchemes.end(),
                      [&](const char* scheme) { return StartsWith(page, scheme); });
-}
-
-// A path as a part of an address (RFC 3986, 3.3).
-std::string PercentEncoded(const std::string& path) {
-  std::string encoded;
-  for (const char c : path) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-                          std::string_view("/-._~").find(c) != std::string_view::npos;
-    encoded += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return encoded;
 }
 
 // The keys of the person and of the loads, which `serve` has, too.

@@ -11,6 +11,7 @@
 #include "server/app/golden/golden_report_look.h"
 #include "server/app/golden/golden_report_text.h"
 #include "server/app/html.h"
+#include "server/app/shell_word.h"
 
 namespace kinescope::app {
 namespace {

@@ -91,7 +91,7 @@ document.documentElement.classList.add('js');
 const cases = [...document.querySelectorAll('section.case')], decided = new Map();
 for (const one of cases) if (one.dataset.shape) one.style.setProperty('--shape', one.dataset.shape);
 // As a shell takes it, by the rule of ShellWord(): names come from files of anyone.
-const word = (text) => (/^[\w./][\w./-]*$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
+const word = (text) => (/^[\w.,:/@%+][\w.,:/@%+=-]*$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
 const { run, token } = document.body.dataset;  // with a token, a server carries out what is decided
 const decidable = document.querySelectorAll('.decide').length;
 let at = 0;

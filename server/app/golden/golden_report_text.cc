@@ -10,18 +10,6 @@
 
 namespace kinescope::app {
 
-std::string ShellWord(const std::string& text) {
-  const bool is_plain =
-      !text.empty() && text.front() != '-' && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view("._-/").find(c) != std::string_view::npos;
-      });
-  if (is_plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string WithDots(const std::string& text) {
   std::string html;
   std::size_t from = 0;

@@ -9,9 +9,6 @@
 
 namespace kinescope::app {
 
-/// For a shell, as a person copies it from the page.
-std::string ShellWord(const std::string& text);
-
 /// "low (green)" as HTML, with a dot of this colour before it.
 std::string WithDots(const std::string& text);
 

@@ -12,6 +12,7 @@
 #include "server/app/golden/golden_review_site.h"
 #include "server/app/golden/golden_update.h"
 #include "server/app/print.h"
+#include "server/app/shell_word.h"
 #include "server/http/local_server.h"
 
 namespace kinescope::app {

@@ -163,4 +163,17 @@ GoldenSuite FindGoldenSuite(const fs::path& folder, const std::vector<std::strin
   return suite;
 }
 
+GoldenSuite ShareOf(GoldenSuite suite, const Shard& shard) {
+  const auto keep = [&](auto& all, const auto& name_of) {
+    const auto is_of_others = [&](const auto& each) { return !shard.Has(name_of(each)); };
+    all.erase(std::remove_if(all.begin(), all.end(), is_of_others), all.end());
+  };
+  keep(suite.cases, [](const FoundCase& found) { return found.name; });
+  for (std::vector<fs::path>* files : {&suite.orphans, &suite.unread}) {
+    keep(*files, [](const fs::path& file) { return file.string(); });
+  }
+  keep(suite.unknown_locks, [](const std::string& name) { return name; });
+  return suite;
+}
+
 }  // namespace kinescope::app

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/batch/shard.h"
 #include "server/app/golden/golden_case.h"
 #include "server/app/golden/golden_lock.h"
 
@@ -45,5 +46,9 @@ struct GoldenSuite {
 /// std::runtime_error if `golden.lock` cannot be read.
 GoldenSuite FindGoldenSuite(const std::filesystem::path& folder,
                             const std::vector<std::string>& names);
+
+/// What one of several processes compares, by a hash of the names. What belongs to no case is in
+/// one share, too. A share may be empty.
+GoldenSuite ShareOf(GoldenSuite suite, const Shard& shard);
 
 }  // namespace kinescope::app

@@ -74,6 +74,7 @@ OutcomeCounts CountsOf(const std::vector<CaseVerdict>& verdicts) {
 }
 
 std::string Headline(const OutcomeCounts& counts) {
+  if (counts.all() == 0) return "There is no picture to compare";
   const std::string all = Counted(counts.all(), "picture");
   if (counts.ExitCode() == 0) {
     return counts.all() == 1 ? "The picture is the same" : fmt::format("All {} are the same", all);

@@ -20,7 +20,7 @@
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_compare.h"
 #include "server/app/golden/golden_composite.h"
-#include "server/app/golden/golden_report_text.h"
+#include "server/app/shell_word.h"
 
 namespace kinescope::app {
 namespace {

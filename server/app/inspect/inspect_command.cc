@@ -228,6 +228,7 @@ Command InspectCommand() {
   const auto values = std::make_shared<InspectOptions>();
   Command command;
   command.name = "inspect";
+  command.shows_progress = true;
   command.about =
       "Lists the contents of a stream or a file: people, messages, rates, losses, errors";
   values->List(command.options);

@@ -107,11 +107,13 @@ class JsonValues : public CellSink {
 // One object on one line, as every --json.
 class JsonFile : public LoadFile {
  public:
-  JsonFile(const std::string& path, const Columns& columns) : out_(path), columns_(columns) {
+  JsonFile(const std::string& path, const Columns& columns, bool has_samples)
+      : out_(path), columns_(columns), has_samples_(has_samples) {
     out_.buffer() += fmt::format("{{\"schema\":\"{}\",", kLoadsSchema);
   }
 
   void Add(const PersonState& person, std::int64_t begin_nanos) override {
+    if (!has_samples_) return;
     if (samples_++ == 0) {
       JsonNames header;
       VisitWide(person, begin_nanos, columns_, header);
@@ -139,6 +141,7 @@ class JsonFile : public LoadFile {
  private:
   OutputFile out_;
   const Columns columns_;
+  const bool has_samples_;
   std::uint64_t samples_ = 0;
 };
 
@@ -148,8 +151,9 @@ std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout, const 
   return std::make_unique<Csv>(path, layout, columns);
 }
 
-std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns) {
-  return std::make_unique<JsonFile>(path, columns);
+std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns,
+                                   bool has_samples) {
+  return std::make_unique<JsonFile>(path, columns, has_samples);
 }
 
 }  // namespace kinescope::app

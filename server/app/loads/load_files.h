@@ -30,8 +30,9 @@ class LoadFile {
 std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout,
                                   const Columns& columns = {});
 /// {"schema": kLoadsSchema, "columns": [...], "samples": [[...], ...], and the members of
-/// `summary`}; unknown values are null.
-std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns = {});
+/// `summary`}; unknown values are null. `has_samples` false: both arrays are empty.
+std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns = {},
+                                   bool has_samples = true);
 
 /// The $id of docs/loads.schema.json, which describes the JSON. Its number changes when a member
 /// is removed or gets another meaning.

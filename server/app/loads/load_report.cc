@@ -9,6 +9,7 @@
 #include "render/image/new_file.h"
 #include "server/app/loads/report_pdf.h"
 #include "server/app/loads/report_pictures.h"
+#include "server/app/shell_word.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
@@ -17,16 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsPdf(const fs::path& path) { return path.extension() == ".pdf"; }
-
-// As a shell reads it.
-std::string QuotedWord(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 // Without the folders of its files, which are of one machine.
 std::string PortableText(const options::Value& value) {
@@ -72,12 +63,12 @@ ReportOrigin OriginOf(const std::string& source, const SourceIdentity& identity,
   constexpr std::string_view kOthers[] = {
       "source",  "csv",   "json",   "layout",  "joints",
       "columns", "plots", "report", "backend", "draw_limit_secs"};
-  origin.command = "kinescope loads " + QuotedWord(SourceName(source));
+  origin.command = "kinescope loads " + ShellWord(SourceName(source));
   for (const options::Option& option : options) {
     const bool is_other =
         std::find(std::begin(kOthers), std::end(kOthers), option.name) != std::end(kOthers);
     if (is_other || option.channel == options::Channel::kDefault) continue;
-    origin.command += fmt::format(" --{} {}", option.name, QuotedWord(PortableText(*option.value)));
+    origin.command += fmt::format(" --{} {}", option.name, ShellWord(PortableText(*option.value)));
   }
   origin.command += " --report page.html";
   return origin;

@@ -247,6 +247,7 @@ TrialSummary SummaryOf(const LoadTrial& trial, const TrialContext& context) {
   summary.com_minus_mvn_m = PeakSummary(trial, trial.com_minus_mvn());
   summary.compression = PeakSummary(trial, trial.compression());
   summary.shear = PeakSummary(trial, trial.shear());
+  summary.compression_secs = trial.compression_secs();
   for (const TrialMark& mark : context.marks) {
     summary.marks.push_back({mark, LoadsAround(mark, trial)});
   }

@@ -77,6 +77,7 @@ struct TrialSummary {
   std::array<JointSummary, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
   std::vector<std::string> notes;
   std::optional<ValueSummary> com_minus_mvn_m, compression, shear;  // N, at L5/S1
+  std::array<double, 2> compression_secs{};  // above each of kCompressionLimits
   struct MarkSummary {
     TrialMark mark;
     MarkLoads loads;

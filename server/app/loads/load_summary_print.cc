@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compression_limits.h"
 #include "core/system/utf8.h"
 #include "server/app/loads/load_summary.h"
 #include "server/table/load_rows.h"
@@ -111,6 +112,17 @@ json ValueJson(const std::optional<ValueSummary>& value) {
   return {{"mean", value->mean}, {"most", value->most}, {"most_at_s", value->most_at_secs}};
 }
 
+json CompressionJson(const TrialSummary& summary) {
+  json value = ValueJson(summary.compression);
+  if (value.is_null()) return value;
+  json above = json::array();
+  for (std::size_t i = 0; i < summary.compression_secs.size(); ++i) {
+    above.push_back({{"limit", kCompressionLimits[i]}, {"seconds", summary.compression_secs[i]}});
+  }
+  value["above"] = above;
+  return value;
+}
+
 }  // namespace
 
 std::string SummaryText(const TrialSummary& summary) {
@@ -167,7 +179,7 @@ json SummaryJson(const TrialSummary& summary) {
           {"notes", summary.notes},
           {"exposure", exposure},
           {"com_minus_mvn_m", ValueJson(summary.com_minus_mvn_m)},
-          {"l5_s1_compression_N", ValueJson(summary.compression)},
+          {"l5_s1_compression_N", CompressionJson(summary)},
           {"l5_s1_shear_N", ValueJson(summary.shear)},
           {"marks", marks}};
 }

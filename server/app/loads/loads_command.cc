@@ -44,6 +44,7 @@ struct LoadsOptions {
   options::Choice<Layout> layout{{{"wide", Layout::kWide}, {"long", Layout::kLong}}, Layout::kWide};
   options::Choice<bool> joints{{{"scored", false}, {"all", true}}, false};
   options::Choice<bool> columns{{{"usual", false}, {"all", true}}, false};
+  options::Choice<bool> samples{{{"all", true}, {"none", false}}, true};
   options::Optional<options::Number> seconds{options::Number(0, {0, kLatestSecs, "s", true})};
   MarksValue marks;
   PersonOptions person;
@@ -64,6 +65,8 @@ struct LoadsOptions {
     option("columns", columns,
            "columns of CSV and JSON: usual, or all (contacts, hands, support polygon, checks, and "
            "the second largest ratio of each joint)");
+    option("samples", samples,
+           "rows of the JSON: every sample, or none, for a small file that has the exposure only");
     option("plots", plots, "folder to write, with a PNG and an SVG per joint");
     option("report", report, "report to write, one A4 page per person, .html or .pdf");
     option(
@@ -76,6 +79,7 @@ struct LoadsOptions {
     option.Group("Drawing");
     backend.List(option);
     option.HasNoEffect("layout", "without --csv", [this] { return csv->empty(); });
+    option.HasNoEffect("samples", "without --json", [this] { return json->empty(); });
     for (const char* name : {"joints", "columns"}) {
       option.HasNoEffect(name, "without --csv or --json",
                          [this] { return csv->empty() && json->empty(); });
@@ -121,7 +125,9 @@ class Recording {
     if (!options.report->empty()) sensitivity_.emplace(context.scene, length_secs_, reader_);
     const Columns columns = {*options.joints, *options.columns};
     if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout, columns));
-    if (!options.json->empty()) files_.push_back(MakeJson(*options.json, columns));
+    if (!options.json->empty()) {
+      files_.push_back(MakeJson(*options.json, columns, *options.samples));
+    }
   }
 
   void Read() {
@@ -297,6 +303,7 @@ Command LoadsCommand() {
   const auto values = std::make_shared<LoadsOptions>();
   Command command;
   command.name = "loads";
+  command.shows_progress = true;
   command.about =
       "Computes the joint loads of a recording: table, CSV, JSON, plots, report.\n"
       "  kinescope loads take.mvnx --hand_load both:10 --csv loads.csv --report report.html";

@@ -99,6 +99,19 @@ FuturePicture DrawPool::Draw(RenderRequest request) {
   return picture;
 }
 
+namespace {
+
+// What is in a layer of vectors is not in the picture, but in the page of a PDF file.
+render::PictureSpec SpecOfPicture(const RenderRequest& request) {
+  render::PictureSpec spec = request.spec;
+  if (request.layer && *request.layer != render::LayerFormat::kPdfPage) {
+    spec.overlays = spec.lines = false;
+  }
+  return spec;
+}
+
+}  // namespace
+
 void DrawPool::Work(std::promise<render::RendererInfo>* started) {
   std::unique_ptr<render::Renderer> renderer;
   if (started != nullptr) {
@@ -121,7 +134,7 @@ void DrawPool::Work(std::promise<render::RendererInfo>* started) {
     try {
       if (renderer == nullptr) renderer = make_();
       const RenderRequest& request = task.request;
-      renderer->RenderInto(*image, request.state, request.camera, request.spec);
+      renderer->RenderInto(*image, request.state, request.camera, SpecOfPicture(request));
       if (request.layer) {
         image->layer =
             renderer->OverlayLayer(request.state, request.camera, request.spec, *request.layer);

@@ -97,6 +97,7 @@ Command RenderCommand(const std::shared_ptr<DrawPools>& pools) {
   const auto values = std::make_shared<RenderOptions>();
   Command command;
   command.name = "render";
+  command.shows_progress = true;
   command.about =
       "Renders recordings to pictures and clips.\n"
       "  kinescope render take.mvnx --time 2.5 --out figure.png\n"

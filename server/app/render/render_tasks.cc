@@ -17,13 +17,7 @@ void StillTask::DrawMoments(DrawPool& pool, Progress& progress) {
 }
 
 void StillTask::Draw(RenderRequest request, DrawPool& pool, Progress& progress) {
-  if (layer_) {
-    request.layer = layer_;
-    if (*layer_ != render::LayerFormat::kPdfPage) {
-      request.spec.overlays = false;
-      request.spec.lines = false;
-    }
-  }
+  request.layer = layer_;
   const render::Camera camera = request.camera;
   const std::uint32_t counter = request.state.counter;
   const std::string note = request.heading_note;

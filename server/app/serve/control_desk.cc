@@ -72,10 +72,12 @@ ControlDesk::ControlDesk(DeskParts parts)
     : parts_(std::move(parts)),
       start_micros_(WallNanos() / 1000),
       log_(parts_.marks, parts_.states),
+      held_(log_, parts_.first_hand_load),
       trials_(parts_.folder),
       camera_(parts_.camera) {}
 
 ControlDesk::~ControlDesk() {
+  held_.Flush();
   if (running_) StopTrial();
 }
 
@@ -93,10 +95,7 @@ ControlStatus ControlDesk::Look() {
   status.jobs = workshop_.jobs();
   status.state = parts_.states.Get();
   status.stated = stated_;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    status.held = held_;
-  }
+  status.held = held_.all();
   status.first_held = {parts_.first_hand_load, start_micros_, "option"};
   status.class_limits = ClassLimitsNow();
   status.class_limits_are_set = class_limits_.has_value();
@@ -289,27 +288,20 @@ ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& lim
   return JsonText(json{{"class_limits", *value}});
 }
 
-HandLoad ControlDesk::HandLoadOf(int character) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto held = held_.find(character);
-  return held != held_.end() ? held->second.load : parts_.first_hand_load;
+// As marks call a person.
+std::string ControlDesk::NameOfCharacter(int character) const {
+  const auto state = parts_.states.Get();
+  const PersonState* const person = FindPerson(state.get(), character);
+  return person != nullptr ? NameOf(*person) : std::to_string(character);
 }
 
 void ControlDesk::OnHandLoad(int character, const HandLoad& load, http::Role role) {
-  const auto state = parts_.states.Get();
-  const PersonState* const person = FindPerson(state.get(), character);
-  const std::string who = person != nullptr ? NameOf(*person) : std::to_string(character);
-  log_.Note(http::Name(role), "hand load of " + who, TextOf(HandLoadOf(character)), TextOf(load));
-  const std::lock_guard<std::mutex> lock(mutex_);
-  held_[character] = {load, WallNanos() / 1000, std::string(http::Name(role))};
+  held_.OnOrder(character, NameOfCharacter(character), load, http::Name(role));
   status_due_nanos_ = 0;
 }
 
-void ControlDesk::OnRosHandLoad(int character, const HandLoad& load) {
-  constexpr std::size_t kMostPeople = 256;  // characters of a stream
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (held_.size() >= kMostPeople && held_.count(character) == 0) return;
-  held_[character] = {load, WallNanos() / 1000, "ROS"};
+void ControlDesk::OnRosHandLoad(int character, const HandLoad& load, std::int64_t now_nanos) {
+  held_.OnRos(character, NameOfCharacter(character), load, now_nanos);
 }
 
 void ControlDesk::OnCamera(const std::string& before, const std::string& after, http::Role role) {
@@ -334,7 +326,7 @@ OptionTexts ControlDesk::OptionsNow() const {
     if (change.sex) SetOption(options, "sex", NameOf(*change.sex));
     if (change.height_m) SetOption(options, "height", fmt::format("{}", *change.height_m));
   }
-  const HandLoad load = HandLoadOf(character);
+  const HandLoad load = held_.Of(character);
   if (load.is_known) SetOption(options, "hand_load", HandLoadOption(load));
   return options;
 }

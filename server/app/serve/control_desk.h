@@ -8,7 +8,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -20,6 +19,7 @@
 #include "server/app/serve/change_mailbox.h"
 #include "server/app/serve/clip_maker.h"
 #include "server/app/serve/control_status.h"
+#include "server/app/serve/hand_load_log.h"
 #include "server/app/serve/operator_log.h"
 #include "server/app/serve/report_maker.h"
 #include "server/app/serve/workshop.h"
@@ -70,7 +70,9 @@ class ControlDesk : public http::Controls {
   void OnCamera(const std::string& before, const std::string& after, http::Role role) override;
 
   /// A hand load that came over ROS. Any thread.
-  void OnRosHandLoad(int character, const HandLoad& load);
+  void OnRosHandLoad(int character, const HandLoad& load, std::int64_t now_nanos);
+  /// Call it many times a second. Any thread.
+  void OnTime(std::int64_t now_nanos) { held_.OnTime(now_nanos); }
 
  private:
   Result StartTrial(const http::TrialOrder& order, http::Role role);
@@ -87,12 +89,13 @@ class ControlDesk : public http::Controls {
   std::int64_t RunMicros() const;
   OptionTexts OptionsNow() const;
   std::array<double, 2> ClassLimitsNow() const;
-  HandLoad HandLoadOf(int character) const;
+  std::string NameOfCharacter(int character) const;
   ControlStatus Look();
 
   const DeskParts parts_;
   const std::int64_t start_micros_;  // wall clock
   OperatorLog log_;
+  HandLoadLog held_;
   recording::TrialBook trials_;
   std::optional<recording::Trial> running_;
   std::string camera_;                                 // of the live picture
@@ -103,9 +106,6 @@ class ControlDesk : public http::Controls {
   bool was_recording_ = false;
   std::string status_;  // JSON
   std::int64_t status_due_nanos_ = 0;
-
-  mutable std::mutex mutex_;
-  std::map<int, HeldLoad> held_;  // by character; guarded by mutex_
 
   Workshop workshop_;  // last: its work uses the other members
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "render/camera/camera.h"
 #include "render/image/png_file.h"
@@ -17,12 +18,21 @@ bool IsNamedCamera(const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// What is not of now is not called live.
+std::shared_ptr<const SceneState> AsRecording(const SceneState& state) {
+  auto recording = std::make_shared<SceneState>(state);
+  recording->arrival_nanos = recording->waited_nanos = 0;
+  return recording;
+}
+
 }  // namespace
 
 LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory make_renderer,
                            const std::shared_ptr<const SceneState>& first,
                            Latest<http::Picture>& pictures)
     : moves_(settings.moves),
+      trails_(settings.trails),
+      history_(settings.history),
       pictures_(pictures),
       camera_(settings.camera.name()),
       live_({"picture", settings.width, settings.height, settings.rate_hz, settings.people,
@@ -58,16 +68,37 @@ std::vector<std::uint8_t> LivePictures::SnapshotPng(const http::SnapshotRequest&
   const std::string& camera = request.camera;
   render::PictureSpec view{request.width, request.height, 2, "", true};
   if (request.is_dark) view.look.theme = render::Theme::kDark;
+  std::shared_ptr<const SceneState> former;
+  if (request.state) {
+    view.look.trails = TrailsUpTo(*request.state);
+    former = AsRecording(*request.state);
+  }
   std::optional<CameraController> named;
   if (!camera.empty()) {
     if (!IsNamedCamera(camera)) throw UsageError("camera=" + camera + ": unknown camera");
-    named.emplace(ParseCamera(camera), CameraOptions());
+    // A former moment has lens and framing of the live picture in whose place it is shown.
+    named.emplace(ParseCamera(camera), former ? moves_ : CameraOptions());
   }
-  return render::EncodePng(
-      (named ? snapshots_.Request(view, std::move(named))
-             : snapshots_.RequestAimed(
-                   view, [this](const render::ViewShape& shape) { return live_.AimLive(shape); }))
-          .get());
+  return render::EncodePng((named ? snapshots_.Request(view, std::move(named), former)
+                                  : snapshots_.RequestAimed(
+                                        view,
+                                        [this, former](const render::ViewShape& shape) {
+                                          return former ? live_.AimAlone(*former, shape)
+                                                        : live_.AimLive(shape);
+                                        },
+                                        former))
+                               .get());
+}
+
+std::vector<render::Trail> LivePictures::TrailsUpTo(const SceneState& state) const {
+  Trails trails(trails_);
+  if (trails.empty() || history_ == nullptr) return {};
+  const auto nanos = static_cast<std::int64_t>(trails_.secs * kNanosPerSecond);
+  history_->Visit({state.made_nanos - nanos, state.made_nanos, 0}, [&](const SceneState& each) {
+    trails.Remember(each);
+    return true;
+  });
+  return trails.Make();
 }
 
 DrawingStatus LivePictures::status() const {

@@ -2,7 +2,8 @@
 /// as PNG, on a thread and with a renderer of their own, so that a large one does not delay the
 /// live picture; that renderer is made for the first snapshot. A camera that a viewer selects keeps
 /// the camera options of the live picture. A snapshot without a camera is taken by the camera of
-/// the live picture; a named camera has no options.
+/// the live picture; a named camera has no options. Snapshots of former states have those of the
+/// live picture, are called a recording, and show the trails that ended there.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
@@ -31,6 +33,7 @@ struct LivePictureSettings {
   double rate_hz = 30;  // maximum frame rate
   PeopleLook people = {};
   TrailSettings trails = {};
+  const history::History* history = nullptr;  // of the trails of former states; may be null
 };
 
 class LivePictures : public http::PictureFeed {
@@ -57,8 +60,11 @@ class LivePictures : public http::PictureFeed {
 
  private:
   void Publish(const render::Image& image, const SceneState& state);
+  std::vector<render::Trail> TrailsUpTo(const SceneState& state) const;
 
   const CameraOptions moves_;
+  const TrailSettings trails_;
+  const history::History* const history_;
   Latest<http::Picture>& pictures_;
   std::string camera_;  // name of the live picture's; used by the thread that calls SetCamera
   // Last: they use all other members.

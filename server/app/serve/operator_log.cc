@@ -12,14 +12,14 @@ marks::Moment OperatorLog::Now() const {
 }
 
 void OperatorLog::Note(std::string_view role, const std::string& what, const std::string& before,
-                       const std::string& after) {
+                       const std::string& after, const marks::Moment& at) {
   if (before == after) return;
   spdlog::info("{} changed {}: {} → {}", role, what, before, after);
   marks::NewMark mark;
   mark.text = what + ": " + before + " → " + after;
   mark.role = role;
   mark.kind = marks::Kind::kChange;
-  mark.at = Now();
+  mark.at = at;
   Add(mark);
 }
 

@@ -1,5 +1,5 @@
 /// Who changed what, when: each change of an operator is a mark with the old and the new value, at
-/// the newest sample. Trials are spans. One thread, the page's.
+/// the newest sample unless another is given. Trials are spans. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,11 @@ class OperatorLog {
   /// Marks "what: before → after"; nothing if both are equal. A mark that cannot be kept is logged,
   /// and the change holds all the same.
   void Note(std::string_view role, const std::string& what, const std::string& before,
-            const std::string& after);
+            const std::string& after) {
+    Note(role, what, before, after, Now());
+  }
+  void Note(std::string_view role, const std::string& what, const std::string& before,
+            const std::string& after, const marks::Moment& at);
   /// @return the id of the mark at that moment; nullopt if it was not kept
   std::optional<std::uint64_t> BeginTrial(std::string_view role, const std::string& title,
                                           const marks::Moment& at);

@@ -8,6 +8,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/utf8.h"
+#include "server/app/serve/clock_news.h"
 #include "server/http/mark_order.h"
 
 namespace kinescope::app {
@@ -41,6 +42,32 @@ Diagnosis DiagnosisOfStream(const SceneState* state, const StreamHealth& stream)
     diagnosis.values.emplace_back("source", state->source);
     diagnosis.values.emplace_back("people", std::to_string(state->people.size()));
   }
+  return diagnosis;
+}
+
+Diagnosis DiagnosisOfClock(const NodeClock& clock) {
+  Diagnosis diagnosis;
+  diagnosis.name = "clock of " + PrintableLine(clock.node);
+  diagnosis.message = ClockWarning(clock);
+  if (!diagnosis.message.empty()) {
+    diagnosis.level = Diagnosis::Level::kWarning;
+  } else {
+    diagnosis.message = clock.offset ? "as the server's" : "its stamps are of this time";
+  }
+  const auto add = [&](const char* name, double millis) {
+    diagnosis.values.emplace_back(name, fmt::format("{:.1f}", millis));
+  };
+  if (clock.offset) {
+    add("ahead of the server's, ms", 1e3 * Secs(clock.offset->nanos));
+    add("uncertainty, ms", 1e3 * Secs(clock.offset->uncertainty_nanos));
+  }
+  if (const auto delay = DelayOf(clock)) {
+    add("smallest delay, ms", delay->least_millis);
+    add("largest delay, ms", delay->most_millis);
+  } else {
+    add("from stamp to arrival at least, ms", 1e3 * Secs(clock.least_lag_nanos));
+  }
+  add("added to its stamps, ms", 1e3 * Secs(clock.shift_nanos));
   return diagnosis;
 }
 
@@ -92,6 +119,7 @@ ros_bridge::RosLogLine ForRos(const LogLine& line) {
 std::vector<Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& stream,
                                    const alarms::Alarms& alarms) {
   std::vector<Diagnosis> all = {DiagnosisOfStream(state, stream)};
+  for (const NodeClock& clock : stream.clocks) all.push_back(DiagnosisOfClock(clock));
   const std::vector<alarms::Alarm> shown = alarms.shown();
   for (const alarms::Rule& rule : alarms.rules().rules) {
     all.push_back(DiagnosisOfRule(rule, shown));

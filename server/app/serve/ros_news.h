@@ -19,7 +19,7 @@
 
 namespace kinescope::app {
 
-/// One diagnosis of the stream, and one of each rule. `state` may be null.
+/// One diagnosis of the stream, of each clock, and of each rule. `state` may be null.
 std::vector<ros_bridge::Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& stream,
                                                const alarms::Alarms& alarms);
 

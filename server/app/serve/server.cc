@@ -110,7 +110,10 @@ Server::Server(const ServeConfig& config)
       recordings_(config.recordings, config.may_make_recordings),
       recorder_(RecorderOf(config, recordings_)),
       source_(SourceOf(config, recorder_.get())),
-      history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
+      history_(config.history
+                   ? std::make_unique<history::History>(
+                         *config.history, [this](SceneState& state) { AddGhosts(state); })
+                   : nullptr),
       marks_(BookOf(config, recorder_.get())),
       webhook_(WebhookOf(config)),
       alarms_(
@@ -165,8 +168,10 @@ int Server::ServeMeshes(const std::string& set, const std::shared_ptr<const Mesh
 void Server::StartPictures(const ServeConfig& config) {
   render::PreferSpeed();
   const RendererFactory make_renderer = RenderersOf(config.backend);
+  LivePictureSettings settings = *config.pictures;
+  settings.history = history_.get();
   live_pictures_ =
-      std::make_unique<LivePictures>(*config.pictures, make_renderer, states_.Get(), pictures_);
+      std::make_unique<LivePictures>(settings, make_renderer, states_.Get(), pictures_);
   spdlog::info("first picture {:.2f} s after start, rendered by {}",
                Secs(MonotonicNanos() - start_nanos_), live_pictures_->status().renderer.renderer);
   if (config.clips && history_) {
@@ -265,7 +270,7 @@ void Server::Run() {
       },
       &changes_,
       [this](int character, const HandLoad& load) {
-        if (desk_) desk_->OnRosHandLoad(character, load);
+        if (desk_) desk_->OnRosHandLoad(character, load, source_->now_nanos());
       },
       [this](const std::string& text) { ros_news_->OnMark(text); },
       [this] { return source_->now_nanos(); });
@@ -310,6 +315,7 @@ void Server::LogStop(const Playback& playback) const {
 void Server::OnTime(std::int64_t now_nanos) {
   builder_.Tick(now_nanos);
   alarms_.OnTime(now_nanos, stream_meter_.health().recent_loss);
+  if (desk_) desk_->OnTime(now_nanos);
   if (ros_news_) ros_news_->OnTime(now_nanos, stream_meter_.health());
   if (now_nanos < counters_due_nanos_) return;
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;

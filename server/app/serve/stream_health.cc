@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/system/json_text.h"
+#include "server/app/serve/clock_news.h"
 
 namespace kinescope::app {
 namespace {
@@ -48,7 +49,12 @@ void StreamHealthMeter::OnCounters(const SourceCounters& counters, std::int64_t 
     if (since > 0) slice.rejected[reason] = since;
   }
   slice.delays = counters.delays;
+  health_.clocks = counters.clocks;
   slice.incomplete = Advance(counters.incomplete, now_nanos, health_.incomplete);
+  const auto steps = counters.transport.find("clock_steps");
+  if (steps != counters.transport.end()) {
+    slice.clock_steps = Advance(steps->second, now_nanos, health_.clock_steps);
+  }
   health_.loss =
       ShareOf(static_cast<double>(health_.lost), static_cast<double>(health_.incomplete.count),
               static_cast<double>(health_.samples));
@@ -78,13 +84,14 @@ void StreamHealthMeter::SpreadLosses() {
 
 void StreamHealthMeter::SumUp() {
   double samples = 0, lost = 0;
-  health_.gaps.recent = health_.incomplete.recent = 0;
+  health_.gaps.recent = health_.incomplete.recent = health_.clock_steps.recent = 0;
   for (auto& [reason, events] : health_.rejected) events.recent = 0;
   for (const Slice& slice : slices_) {
     samples += static_cast<double>(slice.samples);
     lost += slice.lost;
     health_.gaps.recent += slice.gaps;
     health_.incomplete.recent += slice.incomplete;
+    health_.clock_steps.recent += slice.clock_steps;
     for (const auto& [reason, count] : slice.rejected) health_.rejected[reason].recent += count;
   }
   const auto incomplete = static_cast<double>(health_.incomplete.recent);
@@ -101,16 +108,20 @@ std::string StreamHealthJson(const StreamHealth& health) {
     entry["reason"] = reason;
     rejected.push_back(std::move(entry));
   }
+  json clocks = json::array();
+  for (const NodeClock& clock : health.clocks) clocks.push_back(ClockJson(clock));
   return JsonText(json{
       {"samples", health.samples},
       {"lost", health.lost},
       {"incomplete", EventsToJson(health.incomplete)},
+      {"clock_steps", EventsToJson(health.clock_steps)},
       {"loss_10s", health.recent_loss ? json(Rounded(*health.recent_loss, 1e4)) : json(nullptr)},
       {"loss", health.loss ? json(Rounded(*health.loss, 1e6)) : json(nullptr)},
       {"jitter_ms", health.jitter ? json(Rounded(1e-6 * static_cast<double>(*health.jitter), 10))
                                   : json(nullptr)},
       {"gaps", EventsToJson(health.gaps)},
-      {"rejected", std::move(rejected)}});
+      {"rejected", std::move(rejected)},
+      {"clocks", std::move(clocks)}});
 }
 
 }  // namespace kinescope::app

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/source.h"
 
@@ -30,7 +31,9 @@ struct StreamHealth {
                                        // after the fastest ones; nullopt: not known
   Events gaps;
   Events incomplete;                       // samples delivered without a part of them
+  Events clock_steps;                      // times that the wall clock of this machine was set
   std::map<std::string, Events> rejected;  // by reason
+  std::vector<NodeClock> clocks;           // of the nodes whose people are read
 };
 
 class StreamHealthMeter {
@@ -49,6 +52,7 @@ class StreamHealthMeter {
     double lost = 0;
     std::uint64_t gaps = 0;
     std::uint64_t incomplete = 0;
+    std::uint64_t clock_steps = 0;
     std::map<std::string, std::uint64_t> rejected;
     DurationHistogram delays;  // all so far, at its end
   };

@@ -250,6 +250,7 @@ Command StreamCommand() {
   const auto values = std::make_shared<StreamOptions>();
   Command command;
   command.name = "stream";
+  command.shows_progress = true;
   command.about = "Sends a source as a suit would, over UDP or TCP, with faults on request";
   values->List(command.options);
   command.positionals = {"source"};

@@ -118,6 +118,7 @@ Command StripCommand() {
   const auto values = std::make_shared<StripOptions>();
   Command command;
   command.name = "strip";
+  command.shows_progress = true;
   command.about =
       "Reads the frame code out of clips and pictures: the sample that each frame shows.\n"
       "  kinescope render walk.mvnx --overlay frame_code --out walk.mp4\n"

@@ -29,7 +29,7 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
           boxes);
     return;
   }
-  const nlohmann::ordered_json json = {
+  const nlohmann::ordered_json line = {
       {"out", *options.out},
       {"robot", robot.name},
       {"links", robot.model->links.size()},
@@ -38,7 +38,7 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
       {"camera", ToJson(camera)},
       {"problems", problems},
   };
-  Print("{}\n", JsonText(json));
+  Print("{}\n", JsonText(line));
 }
 
 // The picture shows what was asked for; the robot could not stand like that.

@@ -3,7 +3,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 #include "core/system/clocks.h"
@@ -28,24 +27,21 @@ std::optional<std::int64_t> KernelStampOf(const msghdr& message) {
 }
 
 std::int64_t ArrivalClock::Read(const Arrival& now) {
-  constexpr std::int64_t kStep = 20 * kNanosPerMilli;
   now_ = now;
-  const std::int64_t offset = now.wall_nanos - now.monotonic_nanos;
-  const std::int64_t change = offset - offset_nanos_;
-  const bool was_set = std::abs(change) > kStep;
-  if (was_set) offset_before_nanos_ = offset_nanos_;
-  offset_nanos_ = offset;
-  return was_set ? change : 0;
+  const std::int64_t before = offset_.nanos();
+  const std::int64_t set_by = offset_.Read(now.wall_nanos, now.monotonic_nanos);
+  if (set_by != 0) offset_before_nanos_ = before;
+  return set_by;
 }
 
 std::int64_t ArrivalClock::MonotonicOf(std::int64_t stamp_nanos) const {
   // The kernel stamps and the two clocks are read at different instants.
   constexpr std::int64_t kSlack = 2 * kNanosPerMilli;
-  for (const std::int64_t offset : {offset_nanos_, offset_before_nanos_}) {
+  for (const std::int64_t offset : {offset_.nanos(), offset_before_nanos_}) {
     const std::int64_t nanos = stamp_nanos - offset;
     if (nanos >= last_nanos_ - kSlack && nanos <= now_.monotonic_nanos + kSlack) return nanos;
   }
-  return stamp_nanos - offset_nanos_;
+  return stamp_nanos - offset_.nanos();
 }
 
 Arrival ArrivalClock::ArrivalOf(std::optional<std::int64_t> stamp_nanos) {

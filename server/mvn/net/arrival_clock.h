@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/system/wall_offset.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/net/socket.h"
 
@@ -25,8 +26,8 @@ class ArrivalClock {
  public:
   /// `opened`: when the socket was opened; nothing arrived before.
   explicit ArrivalClock(const Arrival& opened)
-      : offset_nanos_(opened.wall_nanos - opened.monotonic_nanos),
-        offset_before_nanos_(offset_nanos_),
+      : offset_(opened.wall_nanos, opened.monotonic_nanos),
+        offset_before_nanos_(offset_.nanos()),
         last_nanos_(opened.monotonic_nanos) {}
 
   /// Call it after each read from the socket, before ArrivalOf(). Returns by how much the wall
@@ -43,7 +44,7 @@ class ArrivalClock {
   std::int64_t MonotonicOf(std::int64_t stamp_nanos) const;
 
   Arrival now_;
-  std::int64_t offset_nanos_;         // wall clock - monotonic clock
+  WallOffset offset_;
   std::int64_t offset_before_nanos_;  // before the wall clock was last set
   std::int64_t last_nanos_;           // receive time of the datagram before
 };

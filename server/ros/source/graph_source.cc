@@ -14,11 +14,13 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "core/system/wall_offset.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/ros_clock.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/live_topics.h"
+#include "server/ros/source/publisher_clocks.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/stamp.h"
 
@@ -106,6 +108,8 @@ class GraphSource : public Source {
     sink_ = &sink;
     topics_.Take(timeout);
     sink_ = nullptr;
+    FollowClock();
+    clocks_.Update(MonotonicNanos(), wall_.nanos());
     return topics_.status().shutdown_requested ? State::kEnded : State::kMore;
   }
 
@@ -114,22 +118,38 @@ class GraphSource : public Source {
     const LiveTopics::Status status = topics_.status();
     counters.transport = {{"ros_master_answers", status.master_answers ? 1 : 0},
                           {"publishers", status.publishers}};
+    const auto add = [&](const char* name, std::uint64_t count) {
+      if (count > 0) counters.transport[name] = count;
+    };
+    add("clock_steps", clock_steps_);
+    add("failed_time_questions", clocks_.failures());
+    counters.clocks = clocks_.Report();
     return counters;
   }
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
 
  private:
-  std::int64_t WallNow(std::int64_t monotonic) const {
-    return start_wall_ + (monotonic - start_monotonic_);
+  // Once per message: the next stamps of nodes on this machine are of the new time.
+  void FollowClock() {
+    const std::int64_t before = MonotonicNanos(), wall = WallNanos(), now = MonotonicNanos();
+    if (now - before > kNanosPerMilli) return;  // interrupted: the next time
+    const std::int64_t set_by = wall_.Read(wall, now);
+    if (set_by == 0) return;
+    ++clock_steps_;
+    newest_arrival_ = 0;
+    clocks_.OnOwnClockSet(set_by);
+    for (auto& [character, newest] : newest_) newest += set_by;
   }
 
   // By the clock of the graph, so that stamps in headers can be compared with it.
   Arrival Now() {
+    FollowClock();
     const std::int64_t now = MonotonicNanos();
-    if (!ros::Time::isSimTime()) return {WallNow(now), now};
+    newest_arrival_ = std::max(newest_arrival_, now + wall_.nanos());
+    if (!ros::Time::isSimTime()) return {newest_arrival_, now};
     const std::int64_t of_graph = ToNanos(ros::Time::now());
-    clock_.Observe(WallNow(now), of_graph);
+    clock_.Observe(newest_arrival_, of_graph);
     return {of_graph, now};
   }
 
@@ -148,14 +168,25 @@ class GraphSource : public Source {
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
       if (index > 0) return people_.TakeStatic(transforms_, counters_);
-      return TakeNow([&](const Arrival& now, SampleSink& sink) {
-        people_.Take(transforms_, now, counters_, sink);
+      const Arrival now = Now();
+      const std::int64_t stamp = NewestStamp();
+      const std::int64_t shift = ShiftOf(event, stamp, now);
+      for (auto& transform : transforms_.transforms) Shift(transform.header.stamp, shift);
+      return Take([&](SampleSink& sink) {
+        const bool has_person = people_.Take(transforms_, now, counters_, sink);
+        if (has_person) OnPerson(event, stamp, now);
       });
     }
     if (sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>()) {
       if (!Decode(raw.bytes, link_state_array_)) return Reject(index, kUnreadableMessage);
-      return TakeNow([&](const Arrival& now, SampleSink& sink) {
+      const Arrival now = Now();
+      const std::int64_t stamp = NewestLinkStamp();
+      const std::int64_t shift = ShiftOf(event, stamp, now);
+      Shift(link_state_array_.header.stamp, shift);
+      for (auto& state : link_state_array_.states) Shift(state.header.stamp, shift);
+      return Take([&](SampleSink& sink) {
         link_states_.Take(link_state_array_, now, counters_, sink);
+        OnPerson(event, stamp, now);
       });
     }
     const auto type = connection.find("type");
@@ -163,16 +194,43 @@ class GraphSource : public Source {
                                                       : type->second.substr(0, kLongestTypeName)));
   }
 
-  template <class Take>
-  void TakeNow(const Take& take) {
-    const Arrival now = Now();
-    if (!ros::Time::isSimTime()) return take(now, *sink_);
+  // 0: none, so that of its arrival is taken, later.
+  std::int64_t NewestStamp() const {
+    ros::Time newest;
+    for (const auto& transform : transforms_.transforms) {
+      newest = std::max(newest, transform.header.stamp);
+    }
+    return ToNanos(newest);
+  }
+  std::int64_t NewestLinkStamp() const {
+    ros::Time newest = link_state_array_.header.stamp;
+    for (const auto& state : link_state_array_.states) {
+      newest = std::max(newest, state.header.stamp);
+    }
+    return ToNanos(newest);
+  }
+  // Of a node whose clock differs.
+  std::int64_t ShiftOf(const LiveTopics::Event& event, std::int64_t stamp, const Arrival& now) {
+    if (stamp == 0 || ros::Time::isSimTime()) return 0;
+    return clocks_.OnMessage(event.getPublisherName(), stamp, now.stamp_nanos);
+  }
+  void OnPerson(const LiveTopics::Event& event, std::int64_t stamp, const Arrival& now) {
+    if (stamp == 0 || ros::Time::isSimTime()) return;
+    clocks_.OnPerson(event.getPublisherName(), stamp, now.stamp_nanos);
+  }
+  static void Shift(ros::Time& stamp, std::int64_t nanos) {
+    if (nanos != 0 && !stamp.isZero()) stamp = ToRosTime(ToNanos(stamp) + nanos);
+  }
+
+  template <class TakeMessage>
+  void Take(const TakeMessage& take) {
+    if (!ros::Time::isSimTime()) return take(*sink_);
     if (!clock_.has_time()) {
       ++counters_.ignored["message before there was a time on /clock"];
       return;
     }
     InWallTime sink(clock_, newest_, *sink_);
-    take(now, sink);
+    take(sink);
   }
 
   void Reject(std::size_t index, const std::string& what) {
@@ -180,10 +238,12 @@ class GraphSource : public Source {
   }
 
   const std::string description_;
-  const std::int64_t start_wall_ = WallNanos();
-  const std::int64_t start_monotonic_ = MonotonicNanos();
+  WallOffset wall_{WallNanos(), MonotonicNanos()};
+  std::int64_t newest_arrival_ = 0;     // wall clock; goes back only if that is set
+  std::uint64_t clock_steps_ = 0;       // times that it was set
   RosClock clock_;                      // without a time unless it is simulated
   std::map<int, std::int64_t> newest_;  // stamps, by character; if it is
+  PublisherClocks clocks_;
   TransformPeople people_;
   LinkStatesPerson link_states_;
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory

@@ -35,7 +35,7 @@ void TransformPeople::NoticeNames(const tf2_msgs::TFMessage& message, std::int64
   frames_.Find();
 }
 
-void TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& arrival,
+bool TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& arrival,
                            SourceCounters& counters, SampleSink& sink) {
   NoticeNames(message, arrival.stamp_nanos);
   for (std::size_t i = people_.size(); i < frames_.people().size(); ++i) {
@@ -57,6 +57,7 @@ void TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
   }
   if (touched_.empty()) ++counters.ignored[new_name_at_ ? kNaming : kNobody];
   for (const int person : touched_) Give(person, arrival, counters, sink);
+  return !touched_.empty();
 }
 
 void TransformPeople::TakeStatic(const tf2_msgs::TFMessage& message, SourceCounters& counters) {

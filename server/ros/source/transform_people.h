@@ -20,8 +20,8 @@
 
 namespace kinescope::ros_bridge {
 
-/// Receive time of a message. `stamp_nanos` goes back only if the clock of the graph was set back;
-/// then a person's samples begin anew at its new time.
+/// Receive time of a message. `stamp_nanos` goes back only if the clock of the graph, or the wall
+/// clock of this computer, was set back; then a person's samples begin anew at its new time.
 struct Arrival {
   std::int64_t stamp_nanos = 0;      // the sender's clock; replaces implausible header stamps
   std::int64_t monotonic_nanos = 0;  // as BodySample::arrival_nanos; 0: from a file
@@ -39,8 +39,8 @@ class TransformPeople {
   void FindPeople() { frames_.Find(); }
 
   /// Processes one message. Samples and characters are delivered to `sink`; rejected transforms are
-  /// counted by reason.
-  void Take(const tf2_msgs::TFMessage& message, const Arrival& arrival, SourceCounters& counters,
+  /// counted by reason. False: the message has no frame of a person.
+  bool Take(const tf2_msgs::TFMessage& message, const Arrival& arrival, SourceCounters& counters,
             SampleSink& sink);
   /// Processes a message of /tf_static: its frames are part of every sample that does not contain
   /// them itself.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/node_clock.h"
 #include "core/system/clocks.h"
 
 namespace kinescope::ros_bridge {
@@ -13,7 +14,6 @@ using Eigen::Vector3d;
 using urdf::At;
 using urdf::Pose;
 
-constexpr std::int64_t kDayNanos = 86'400'000'000'000;
 constexpr std::int64_t kMinStepNanos = 1'000;  // between two samples
 
 constexpr double kShortestArmBone = 0.05;  // m
@@ -111,7 +111,8 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
   if (record_nanos < last_record_nanos_) StartOver(header_nanos, record_nanos);
   last_record_nanos_ = record_nanos;
   if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
-  headers_are_right_ = headers_are_right_ && std::llabs(header_nanos - record_nanos) < kDayNanos &&
+  headers_are_right_ = headers_are_right_ &&
+                       std::abs(header_nanos - record_nanos) < NodeClock::kFarNanos &&
                        (samples_ == 0 || header_nanos > last_header_nanos_);
   if (samples_ > 0 && header_nanos < last_header_nanos_) ++steps_back_;
   last_header_nanos_ = header_nanos;

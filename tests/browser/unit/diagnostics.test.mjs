@@ -27,6 +27,11 @@ test('problems of the picture come first, and datagrams rejected once are no pro
   ]);
 });
 
+test('clocks that differ are listed', () => {
+  const clocks = [{ warning: '' }, { warning: 'the clock of /b is 3.00 s behind the server\'s' }];
+  assert.deepEqual(problemLines({ stream: { clocks } }, []), ['The clock of /b is 3.00 s behind the server\'s.']);
+});
+
 test('equal lines appear once, and long lists are shortened', () => {
   const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
   const lines = problemLines({ pictures: { problems } }, []);

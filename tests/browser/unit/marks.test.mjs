@@ -52,3 +52,14 @@ test('a store that is full, forbidden, or holds something else, is no store', as
   assert.equal(await marks.add({ state: 1, text: 'stumbles' }), null);
   assert.equal(marks.waiting, 1);
 });
+
+test('the list is sorted once after each change, not at each look', async () => {
+  const marks = new Marks(() => {});
+  serverOf();
+  await marks.update(1, 0);
+  const empty = marks.list();
+  assert.equal(marks.list(), empty);
+  await marks.add({ state: 1, text: 'rests' });
+  assert.notEqual(marks.list(), empty);
+  assert.equal(marks.list(), marks.list());
+});

@@ -97,16 +97,21 @@ test('cameras are read as numbers and rejected if invalid', () => {
 });
 
 test('diagnostics of parts that do not run are absent', () => {
-  assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
-  assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
+  assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined, stream: undefined });
+  assert.equal(readDiagnostics({ pictures: null, stream: null }, '').stream, null);
   assert.throws(() => readDiagnostics({ source: { left_out: [{ character: 3 }] } }, 'api/v1/diagnostics'),
     /nothing as api\/v1\/diagnostics\.source\.left_out\[0\]\.name; expected a text/);
 });
 
 test('the health of the stream is read with its events, and rejected if it is invalid', () => {
   const gaps = { count: 3, count_10s: 1, last_micros: 5e6 };
-  const stream = { samples: 60, lost: 2, loss_10s: null, loss: 0.03, jitter_ms: 1.5, gaps, incomplete: gaps, rejected: [{ ...gaps, reason: 'cut short' }] };
+  const stream = { samples: 60, lost: 2, loss_10s: null, loss: 0.03, jitter_ms: 1.5, gaps, incomplete: gaps, clock_steps: gaps,
+    rejected: [{ ...gaps, reason: 'cut short' }], clocks: [] };
   assert.deepEqual(readTextMessage(JSON.stringify({ stream: { ...stream, later: 1 } })), { stream });
   assert.throws(() => readTextMessage(JSON.stringify({ stream: { ...stream, gaps: { ...gaps, count: 'often' } } })),
     /"often" as stream\.gaps\.count; expected a number/);
+  const clock = { node: '/a', offset_ms: -3000, uncertainty_ms: 1, delay_ms: 2, most_delay_ms: 3, lag_ms: 3002, most_lag_ms: 3003, excess_ms: 0, warning: '' };
+  assert.deepEqual(readTextMessage(JSON.stringify({ stream: { ...stream, clocks: [clock] } })), { stream: { ...stream, clocks: [clock] } });
+  assert.throws(() => readTextMessage(JSON.stringify({ stream: { ...stream, clocks: [{ ...clock, lag_ms: null }] } })),
+    /null as stream\.clocks\[0\]\.lag_ms; expected a number/);
 });

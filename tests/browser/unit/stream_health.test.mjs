@@ -5,7 +5,7 @@ import { countText, LossAlarm, lossText, streamLine, streamRows } from '../../..
 const quiet = {
   samples: 45678, lost: 0, loss_10s: 0, loss: 0, jitter_ms: 0.8, gaps: { count: 0, count_10s: 0, last_micros: null },
   incomplete: { count: 0, count_10s: 0, last_micros: null },
-  rejected: [],
+  rejected: [], clocks: [],
 };
 const NOW = 100_000;  // ms of the server's clock
 
@@ -52,6 +52,25 @@ test('a problem that is over is history', () => {
   assert.equal(rows[4].recent, '3.2 s');
   assert.equal(rows[1].last, '90 s ago');
   assert.deepEqual(rows[5], { name: 'Refused datagrams', recent: '0', all: '0', last: 'never', isRecent: false });
+});
+
+test('clocks and delays of the nodes of a ROS graph are shown, as far as they can be told apart', () => {
+  const equal = { node: '/a', offset_ms: -0.4, uncertainty_ms: 3.1, delay_ms: 2.96, most_delay_ms: 12.4, lag_ms: 3.4, most_lag_ms: 12.8, excess_ms: 0, warning: '' };
+  const behind = { ...equal, node: '/b', offset_ms: -2980.4, delay_ms: 51, most_delay_ms: 1234, warning: 'set it' };
+  const unasked = { ...equal, node: '/xsens', offset_ms: null, uncertainty_ms: null, delay_ms: null, most_delay_ms: null, lag_ms: -700, most_lag_ms: -655, warning: 'set it' };
+  const shown = (clocks) => streamRows({ ...quiet, clocks }, 3, NOW).slice(5, -1).map(({ name, recent, isRecent }) => [name, recent, isRecent]);
+  assert.deepEqual(shown([equal, behind, unasked]), [
+    ['Clock of /a', 'equal ± 3.1 ms', false], ['Delay from /a', '3.0 ms to 12 ms', false],
+    ['Clock of /b', '2.98 s ± 3.1 ms behind', true], ['Delay from /b', '51 ms to 1.23 s', false],
+    ['Stamp to arrival, /xsens', '−700 ms to −655 ms', true],
+  ]);
+  assert.equal(shown([{ ...equal, delay_ms: 3, most_delay_ms: 3 }])[1][1], '3.0 ms');
+  const line = (...clocks) => streamLine({ ...quiet, clocks });
+  assert.equal(line(equal), '0.0 % lost · jitter 0.8 ms');
+  assert.equal(line(equal, behind), '0.0 % lost · jitter 0.8 ms · clock of /b 2.98 s behind');
+  assert.equal(line({ ...behind, excess_ms: 2400 }), '0.0 % lost · jitter 0.8 ms · clock of /b 2.98 s behind, its stamps slowed down');
+  assert.equal(line(unasked), '0.0 % lost · jitter 0.8 ms · stamps of /xsens 700 ms ahead');
+  assert.equal(line(behind, unasked), '0.0 % lost · jitter 0.8 ms · 2 clocks differ');
 });
 
 test('unknown values are dashes', () => {

@@ -269,5 +269,17 @@ TEST_F(AlarmsTest, TheMessageChangesOnlyWithWhatItSays) {
   EXPECT_THAT(LogJson(*alarms_), HasSubstr(R"("name":"lost")"));
 }
 
+TEST_F(AlarmsTest, AMarginIsNotKnownWhileThePersonProbablySitsOrLeans) {
+  Start("rules:\n  - {name: unsteady, value: margin, below: -0.1, for: 0.2}\n");
+  PersonState person = MakePerson(0, {});
+  person.forces.margin_of_stability = -0.3;
+  person.forces.external_contact_suspected = true;
+  Feed({person}, 5);
+  EXPECT_THAT(events_, IsEmpty());
+  person.forces.external_contact_suspected = false;
+  Feed({person}, 5);
+  EXPECT_THAT(events_, ElementsAre("unsteady of Anna: began"));
+}
+
 }  // namespace
 }  // namespace kinescope::alarms

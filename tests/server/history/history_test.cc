@@ -76,6 +76,17 @@ TEST(History, GivesBackWhatPicturesAndTablesShow) {
   EXPECT_FALSE(b.forces.com_minus_mvn);
 }
 
+TEST(History, CompletesWhatItDoesNotKeep) {
+  History history({}, [](SceneState& state) { state.ghosts.push_back({state.people.front()}); });
+  Fill(history, 1, 130);
+  EXPECT_EQ(history.Numbered(57)->ghosts.size(), 1u);
+  EXPECT_EQ(history.At(57 * kStep + 1000)->ghosts.size(), 1u);
+  history.Visit({56 * kStep, 60 * kStep, 0}, [](const SceneState& state) {
+    EXPECT_EQ(state.ghosts.size(), 1u) << state.number;
+    return true;
+  });
+}
+
 TEST(History, FindsEveryStateByItsNumberAndByTime) {
   History history;
   EXPECT_EQ(history.At(5), nullptr);

@@ -1,5 +1,5 @@
 // page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
-// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE] [--base_path PATH]
+// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE] [--base_path PATH] [--port N]
 // [--tls_certificate FILE --tls_key FILE]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
@@ -73,7 +73,8 @@ class PlainFeed final : public PictureFeed {
     is_dark_ = is_dark;
   }
   std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) override {
-    return PlainPng(request.width, request.height, ColorOf(request.is_dark));
+    return PlainPng(request.width, request.height,
+                    request.state ? ColorOf(*request.state) : ColorOf(request.is_dark));
   }
   std::array<std::uint8_t, 3> color() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -88,6 +89,12 @@ class PlainFeed final : public PictureFeed {
   static std::array<std::uint8_t, 3> ColorOf(bool is_dark) {
     return is_dark ? std::array<std::uint8_t, 3>{10, 20, 40}
                    : std::array<std::uint8_t, 3>{40, 90, 160};
+  }
+
+  // Of former states: red, and the number of the state in green and blue.
+  static std::array<std::uint8_t, 3> ColorOf(const SceneState& state) {
+    return {255, static_cast<std::uint8_t>(state.number >> 8),
+            static_cast<std::uint8_t>(state.number)};
   }
 
   mutable std::mutex mutex_;
@@ -506,6 +513,9 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "--meshes" && i + 1 < arguments.size())
       options.mesh_folder = arguments[++i];
     if (arguments[i] == "--worn") options.worn = true;
+    if (arguments[i] == "--port" && i + 1 < arguments.size()) {
+      config.port = std::stoi(arguments[++i]);
+    }
     if (arguments[i] == "--marks_file" && i + 1 < arguments.size()) {
       options.marks_file = arguments[++i];
     }

@@ -26,6 +26,24 @@ TEST(Snapshot, IsRenderedAsRequested) {
   EXPECT_EQ(site.Get("/api/v1/snapshot.png").body, " 1280x720");
 }
 
+TEST(Snapshot, ShowsAFormerStateOrSaysWhyNot) {
+  TestServer site;
+  for (std::uint64_t number = 4; number <= 6; ++number) site.PublishState(number);
+  EXPECT_EQ(site.Get("/api/v1/snapshot.png?state=5&camera=front").body, "front 1280x720 state 5");
+  const auto expect = [&](const std::string& state, int status, const std::string& reason) {
+    const Response response = site.Get("/api/v1/snapshot.png?state=" + state);
+    EXPECT_EQ(response.status, status) << state;
+    EXPECT_THAT(response.json().at("error").get<std::string>(), HasSubstr(reason)) << state;
+  };
+  expect("7", 409, "state 7 has not come yet; the newest one is 6");
+  expect("3", 410, "state 3 is no longer kept");
+  expect("-5", 400, "state=-5: expected a whole number");
+  expect("", 400, "expected a whole number");
+  const TestServer forgetful("", true, "", {},
+                             [](HttpConfig& config) { config.history = nullptr; });
+  EXPECT_EQ(forgetful.Get("/api/v1/snapshot.png?state=5").status, 503);
+}
+
 TEST(Snapshot, AcceptsSizesFrom16To4096) {
   const TestServer site;
   EXPECT_EQ(site.Get("/api/v1/snapshot.png?width=16&height=4096").status, 200);

@@ -39,7 +39,7 @@ class FakeFeed final : public PictureFeed {
     is_dark_ = is_dark;
   }
   std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) override {
-    const auto& [camera, width, height, is_dark] = request;
+    const auto& [camera, width, height, is_dark, state] = request;
     std::unique_lock<std::mutex> lock(mutex_);
     ++drawing_;
     changed_.notify_all();
@@ -47,7 +47,8 @@ class FakeFeed final : public PictureFeed {
     if (camera == "iso") throw UsageError("iso is out of order");
     if (camera == "back") throw std::runtime_error("the driver failed");
     const std::string text = camera + " " + std::to_string(width) + "x" + std::to_string(height) +
-                             (is_dark ? " dark" : "");
+                             (is_dark ? " dark" : "") +
+                             (state ? " state " + std::to_string(state->number) : "");
     return {text.begin(), text.end()};
   }
 

@@ -649,6 +649,24 @@ TEST(SceneBuilder, AcceptsAPersonWithoutSamples) {
   EXPECT_EQ(built.last().floor_z, 0);
 }
 
+// Each from a computer of its own, whose clocks differ.
+TEST(SceneBuilder, ShowsPeopleTogetherWhoCameAtTheSameTimeWhateverTheirStampsAre) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 1000);
+  const std::int64_t begin = sample.arrival_nanos;
+  for (int i = 0; i < 200; ++i) {
+    sample.arrival_nanos = begin + i * 10'000'000;
+    for (const int character : {0, 1}) {
+      if (character == 1 && i >= 50) continue;
+      sample.character = character;
+      sample.stamp_nanos = sample.arrival_nanos - character * 300'000'000'000;
+      built.builder.OnSample(sample);
+    }
+    const bool has_second = i < 150;  // for a second after its last sample
+    ASSERT_EQ(built.last().people.size(), has_second ? 2U : 1U) << i;
+  }
+}
+
 TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
   Built built;
   built.builder.OnCharacter({7, "Things", {}, {}, {}, {{"HTC Vive Tracker", {0, 0, 1}}}});
@@ -658,6 +676,7 @@ TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
   objects.poses[1].position = {1, 2, 3};
   BodySample sample = SampleOf("n_pose", 0);
   objects.stamp_nanos = sample.stamp_nanos;
+  objects.arrival_nanos = sample.arrival_nanos;
   built.builder.OnObjects(objects);
   built.builder.OnSample(sample);
   ASSERT_EQ(built.last().people.size(), 1U);
@@ -665,7 +684,7 @@ TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
   EXPECT_EQ(built.last().objects[0].name, "HTC Vive Tracker");
   EXPECT_EQ(built.last().objects[1].name, "object_2");
   EXPECT_EQ(built.last().objects[1].pose.position, Vector3d(1, 2, 3));
-  sample.stamp_nanos += 1'100'000'000;
+  sample.arrival_nanos += 1'100'000'000;
   built.builder.OnSample(sample);
   EXPECT_TRUE(built.last().objects.empty());
 }

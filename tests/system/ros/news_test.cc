@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <kinescope/Mark.h>
+#include <kinescope/SetHandLoad.h>
 #include <rosgraph_msgs/Log.h>
 #include <std_msgs/String.h>
 
@@ -107,6 +108,12 @@ TEST_F(NewsOverRos, MarksComeFromRosAndAreHeardThere) {
   ASSERT_TRUE(Spin([&] { return heard.size() == 3; }));
   EXPECT_TRUE(heard[2].is_removed);
   EXPECT_EQ(heard[2].id, heard[0].id);
+  kinescope_ros::SetHandLoad order;
+  order.request.right_kg = 5;
+  ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
+  ASSERT_TRUE(Spin([&] { return heard.size() == 4; })) << "who changed what is a mark";
+  EXPECT_EQ(heard[3].text, "hand load of Demo: unknown → 5 kg right");
+  EXPECT_EQ(heard[3].role, "ros");
 }
 
 TEST_F(NewsOverRos, WarnsOfASecondNodeWithTheSameFrames) {

@@ -121,6 +121,20 @@ TEST_F(LivePicturesTest, RendersSnapshotsOfAnySizeAndCameraBesideTheLivePicture)
   EXPECT_EQ(Next()->jpeg, live);
 }
 
+TEST_F(LivePicturesTest, RendersSnapshotsOfFormerStates) {
+  Start();
+  Next();
+  auto former = std::make_shared<SceneState>(*NumberedScene(1));
+  live_->OnState(std::make_shared<SceneState>());  // nobody is there any more
+  const auto empty = live_->SnapshotPng({"front", 64, 48});
+  const auto person = live_->SnapshotPng({"front", 64, 48, false, former});
+  EXPECT_NE(person, empty);
+  former->arrival_nanos = 0;
+  EXPECT_EQ(live_->SnapshotPng({"front", 64, 48, false, former}), person)
+      << "a former state is a recording, and called one";
+  EXPECT_NE(live_->SnapshotPng({"", 64, 48, false, former}), empty) << "by the live camera";
+}
+
 // 0 to 255, of the left upper pixel: the background.
 int BrightnessOf(const std::vector<std::uint8_t>& png) {
   const ScratchFolder folder;

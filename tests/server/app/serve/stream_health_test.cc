@@ -102,6 +102,15 @@ TEST_F(StreamHealthTest, TellsTheJitterOfTheLastTenSecondsOnly) {
   EXPECT_NEAR(static_cast<double>(*Run(1).jitter), 1e5, 5e3);
 }
 
+TEST_F(StreamHealthTest, TellsWhenTheClockOfThisMachineWasSet) {
+  Run(3);
+  counters_.transport["clock_steps"] = 2;
+  EXPECT_EQ(Run(1).clock_steps.recent, 2u);
+  EXPECT_EQ(meter_.health().clock_steps.last_nanos, now_);
+  EXPECT_EQ(Run(20).clock_steps.recent, 0u) << "what is over is over";
+  EXPECT_EQ(meter_.health().clock_steps.count, 2u);
+}
+
 TEST_F(StreamHealthTest, IsOneJsonObject) {
   counters_.rejected["empty datagram"] = 1;
   Run(3, 3);

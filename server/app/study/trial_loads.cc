@@ -1,0 +1,175 @@
+#include "server/app/study/trial_loads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "core/scene_state.h"
+#include "core/system/errors.h"
+#include "core/system/input_file.h"
+#include "core/system/json_text.h"
+#include "server/app/loads/load_files.h"
+#include "server/table/load_rows.h"
+
+namespace kinescope::app {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// What stands between the samples and the rest. In a text of JSON a quotation mark has a backslash
+// before it, so this is no part of one.
+constexpr std::string_view kEndOfSamples = "],\"inputs\":";
+
+double NumberIn(const json& from, const char* name) {
+  const json& value = from.at(name);
+  return value.is_null() ? kUnknown : value.get<double>();
+}
+
+std::string TextIn(const json& from, const char* name) {
+  const json& value = from.at(name);
+  return value.is_null() ? "" : value.get<std::string>();
+}
+
+JointLoads JointFrom(const json& from) {
+  JointLoads joint;
+  for (std::size_t i = 0; i < joint.samples.size(); ++i) {
+    const char* const band = Name(static_cast<LoadClass>(i));
+    joint.samples[i] = from.at("samples").at(band).get<std::uint64_t>();
+  }
+  joint.p10 = NumberIn(from, "p10");
+  joint.p50 = NumberIn(from, "p50");
+  joint.p90 = NumberIn(from, "p90");
+  joint.peak = NumberIn(from, "peak_ratio");
+  joint.peak_secs = NumberIn(from, "peak_time_s");
+  joint.peak_moment_Nm = NumberIn(from, "peak_moment_Nm");
+  joint.peak_channel = TextIn(from, "peak_channel");
+  const json& high = from.at("above").at(1);
+  joint.longest_high_secs = NumberIn(high, "longest_s");
+  joint.rises = high.at("rises").get<std::uint64_t>();
+  joint.rises_per_min = NumberIn(high, "rises_per_min");
+  return joint;
+}
+
+PersonLoads PersonFrom(const json& from) {
+  PersonLoads person;
+  person.number = from.at("person").get<int>();
+  person.name = TextIn(from, "name");
+  person.samples = from.at("samples").get<std::uint64_t>();
+  person.secs = NumberIn(from, "seconds");
+  person.mass_kg = NumberIn(from, "mass_kg");
+  person.height_m = NumberIn(from, "height_m");
+  person.joints.resize(urdf::kScoredJointCount);
+  for (const json& each : from.at("exposure")) {
+    const auto name = each.at("joint").get<std::string>();
+    for (std::size_t i = 0; i < person.joints.size(); ++i) {
+      if (ScoredName(i) == name) person.joints[i] = JointFrom(each);
+    }
+  }
+  const json& compression = from.at("l5_s1_compression_N");
+  if (!compression.is_null()) {
+    person.compression_most_N = NumberIn(compression, "most");
+    person.compression_mean_N = NumberIn(compression, "mean");
+    // Files of version 0.1.0 and before do not have it.
+    const auto above = compression.find("above");
+    if (above != compression.end())
+      person.compression_above_secs = NumberIn(above->at(0), "seconds");
+  }
+  return person;
+}
+
+TrialLoads TrialFrom(const json& from) {
+  TrialLoads trial;
+  trial.source = from.at("source").get<std::string>();
+  trial.program = from.at("program").get<std::string>();
+  for (const auto& [name, value] : from.at("options").items()) {
+    if (!value.is_null()) {
+      trial.options[name] = value.is_string() ? value.get<std::string>() : JsonText(value);
+    }
+  }
+  for (const json& each : from.at("people")) trial.people.push_back(PersonFrom(each));
+  return trial;
+}
+
+// The end of a file, "" if there is no kEndOfSamples in it.
+std::string EndOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto bytes = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
+  for (std::size_t length = 64 << 10;; length *= 4) {
+    length = std::min(length, bytes);
+    std::string text(length, '\0');
+    file.seekg(static_cast<std::streamoff>(bytes - length));
+    if (!file.read(text.data(), static_cast<std::streamsize>(length))) return "";
+    const std::size_t at = text.rfind(kEndOfSamples);
+    if (at != std::string::npos) return text.substr(at + 2);
+    if (length == bytes || length > kMostLoadsBytes) return "";
+  }
+}
+
+std::string WholeText(InputFile& file) {
+  std::string text;
+  std::array<char, 1 << 16> piece{};
+  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), file.get())) {
+    text.append(piece.data(), got);
+    if (text.size() > kMostLoadsBytes) {
+      throw std::runtime_error(fmt::format("more than {} MB, and not as kinescope loads writes it",
+                                           kMostLoadsBytes >> 20));
+    }
+  }
+  if (!file.failure().empty()) throw std::runtime_error(file.failure());
+  return text;
+}
+
+}  // namespace
+
+std::uint64_t JointLoads::all_samples() const {
+  std::uint64_t all = 0;
+  for (const std::uint64_t each : samples) all += each;
+  return all;
+}
+
+double JointLoads::Percent(LoadClass band) const {
+  const std::uint64_t all = all_samples();
+  if (all == 0) return kUnknown;
+  return 100 * static_cast<double>(samples[static_cast<std::size_t>(band)]) /
+         static_cast<double>(all);
+}
+
+bool LooksLikeLoads(std::string_view head) {
+  const std::size_t schema = head.substr(0, 4096).find("urn:kinescope:loads:");
+  return schema != std::string_view::npos && head.find_first_not_of(" \t\r\n") == head.find('{');
+}
+
+TrialLoads ParseTrialLoads(std::string_view text) {
+  const json whole = json::parse(text, [](int depth, json::parse_event_t event, json& value) {
+    return !(depth == 1 && event == json::parse_event_t::key && value == "samples");
+  });
+  if (whole.value("schema", "") != kLoadsSchema) {
+    throw std::runtime_error(
+        fmt::format("expected a JSON file of kinescope loads, \"schema\": \"{}\"", kLoadsSchema));
+  }
+  return TrialFrom(whole);
+}
+
+TrialLoads ReadTrialLoads(const std::string& path) {
+  InputFile file = OpenInputFile(path);
+  try {
+    const bool is_ours = file.head().find(fmt::format("{{\"schema\":\"{}\",", kLoadsSchema)) == 0;
+    if (is_ours && !file.is_packed()) {
+      const std::string end = EndOf(path);
+      if (!end.empty()) return TrialFrom(json::parse("{" + end));
+    }
+    return ParseTrialLoads(WholeText(file));
+  } catch (const std::exception& error) {
+    throw SourceError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+}  // namespace kinescope::app

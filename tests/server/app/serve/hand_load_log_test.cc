@@ -1,0 +1,121 @@
+#include "server/app/serve/hand_load_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/system/latest.h"
+#include "server/marks/mark_book.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+HandLoad InRightHand(double kilograms) {
+  HandLoad load;
+  load.is_known = true;
+  load.mass_kg[urdf::kRight] = kilograms;
+  return load;
+}
+
+class HandLoadMarks : public ::testing::Test {
+ protected:
+  std::vector<std::string> marks() const {
+    std::vector<std::string> lines;
+    for (const marks::Mark& mark : book_.ChangedAfter(0, 100)) {
+      lines.push_back(mark.role + ": " + mark.text);
+    }
+    return lines;
+  }
+
+  testing::TempFolder folder_;
+  marks::MarkBook book_{{folder_ / "marks.jsonl", {}}};
+  Latest<SceneState> states_;
+  OperatorLog log_{&book_, states_};
+  HandLoadLog held_{log_, HandLoad()};
+};
+
+TEST_F(HandLoadMarks, OfRosAreMarkedAsThoseOfOperatorsAre) {
+  held_.OnOrder(0, "Ann", InRightHand(5), "operator");
+  held_.OnRos(0, "Ann", InRightHand(7), kSecond);
+  EXPECT_THAT(marks(), ElementsAre("operator: hand load of Ann: unknown → 5 kg right",
+                                   "ros: hand load of Ann: 5 kg right → 7 kg right"));
+  EXPECT_EQ(held_.all().at(0).by, "ROS");
+  EXPECT_EQ(held_.Of(0).mass_kg[urdf::kRight], 7);
+}
+
+TEST_F(HandLoadMarks, ThatComManyTimesASecondAreMarkedOnceASecondAndTheLastOneIs) {
+  for (int i = 1; i <= 250; ++i) held_.OnRos(0, "Ann", InRightHand(i), kSecond + i * kSecond / 100);
+  EXPECT_THAT(marks(), ElementsAre("ros: hand load of Ann: unknown → 1 kg right",
+                                   "ros: hand load of Ann: 1 kg right → 101 kg right",
+                                   "ros: hand load of Ann: 101 kg right → 201 kg right"));
+  held_.OnTime(4 * kSecond);
+  EXPECT_EQ(marks().size(), 3u) << "not a second later";
+  held_.OnTime(5 * kSecond);
+  held_.OnTime(9 * kSecond);
+  ASSERT_EQ(marks().size(), 4u);
+  EXPECT_EQ(marks().back(), "ros: hand load of Ann: 201 kg right → 250 kg right");
+}
+
+TEST_F(HandLoadMarks, ThatWaitAreMarkedBeforeThatOfAnOperator) {
+  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(2), kSecond);
+  held_.OnOrder(0, "Ann", InRightHand(3), "operator");
+  EXPECT_THAT(marks(), ElementsAre("ros: hand load of Ann: unknown → 1 kg right",
+                                   "ros: hand load of Ann: 1 kg right → 2 kg right",
+                                   "operator: hand load of Ann: 2 kg right → 3 kg right"));
+}
+
+TEST_F(HandLoadMarks, HaveTheSampleAtWhichTheLoadCameNotThatOfTheMark) {
+  const auto publish = [&](std::uint64_t number) {
+    SceneState state;
+    state.number = number;
+    state.stamp_nanos = 1;
+    states_.Publish(std::make_shared<const SceneState>(state));
+  };
+  publish(10);
+  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  publish(20);
+  held_.OnRos(0, "Ann", InRightHand(2), kSecond + 1);
+  publish(30);
+  held_.OnRos(0, "Ann", InRightHand(2), kSecond + 2);
+  publish(240);
+  held_.OnTime(2 * kSecond);
+  const std::vector<marks::Mark> all = book_.ChangedAfter(0, 100);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[1].at.state, 20u);
+}
+
+TEST_F(HandLoadMarks, OfTheNoiseOfALoadCellAreNotMade) {
+  held_.OnRos(0, "Ann", InRightHand(5), kSecond);
+  for (int i = 2; i < 100; ++i) held_.OnRos(0, "Ann", InRightHand(5 + 0.0009 * i), i * kSecond);
+  EXPECT_EQ(marks().size(), 1u);
+  held_.OnRos(0, "Ann", InRightHand(5.125), 100 * kSecond);
+  ASSERT_EQ(marks().size(), 2u);
+  EXPECT_EQ(marks().back(), "ros: hand load of Ann: 5 kg right → 5.125 kg right");
+}
+
+TEST_F(HandLoadMarks, ThatWaitAreMadeBeforeTheEnd) {
+  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(2), kSecond);
+  held_.Flush();
+  EXPECT_EQ(marks().size(), 2u);
+}
+
+TEST_F(HandLoadMarks, ThatAreAsBeforeAreNoChange) {
+  held_.OnRos(0, "Ann", HandLoad(), kSecond);
+  EXPECT_THAT(marks(), IsEmpty());
+  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  EXPECT_EQ(marks().size(), 1u) << "and nobody waits for it";
+}
+
+}  // namespace
+}  // namespace kinescope::app
