@@ -20,10 +20,10 @@
 #include "server/app/batch/job_list.h"
 #include "server/app/batch/job_worker.h"
 #include "server/app/batch/results_file.h"
-#include "server/app/batch/shard.h"
 #include "server/app/commands.h"
 #include "server/app/print.h"
 #include "server/app/progress.h"
+#include "server/app/shard.h"
 #include "server/options/path_pattern.h"
 #include "server/picture/cores.h"
 

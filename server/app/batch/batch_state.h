@@ -8,7 +8,7 @@
 
 #include "server/app/batch/job_list.h"
 #include "server/app/batch/results_file.h"
-#include "server/app/batch/shard.h"
+#include "server/app/shard.h"
 
 namespace kinescope::app {
 

@@ -15,7 +15,6 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
-#include "server/app/batch/shard.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/golden/golden_commands.h"
 #include "server/app/golden/golden_github.h"
@@ -25,6 +24,7 @@
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_verdict_json.h"
 #include "server/app/print.h"
+#include "server/app/shard.h"
 #include "server/app/shell_word.h"
 
 namespace kinescope::app {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "server/app/batch/shard.h"
 #include "server/app/golden/golden_case.h"
 #include "server/app/golden/golden_lock.h"
+#include "server/app/shard.h"
 
 namespace kinescope::app {
 

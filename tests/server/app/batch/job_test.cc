@@ -8,8 +8,8 @@
 #include "core/system/errors.h"
 #include "server/app/batch/job_command.h"
 #include "server/app/batch/label_pattern.h"
-#include "server/app/batch/shard.h"
 #include "server/app/render/draw_pools.h"
+#include "server/app/shard.h"
 
 namespace kinescope::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/app/batch/shard.h"
+#include "server/app/shard.h"
 
 #include <fmt/format.h>
 
