@@ -87,4 +87,9 @@ double SphereRadius(int joint, LoadClass load_class, const PersonModel& model) {
 
 double SphereDepth(int joint, double height) { return SpheresOf(joint).depth * Scale(height); }
 
+MarkSizes MarkSizesOf(double height) {
+  const double size = Scale(height);
+  return {0.034 * size, 0.068 * size, 0.062 * size, 0.0035 * size, 0.046 * size, 0.038 * size};
+}
+
 }  // namespace kinescope

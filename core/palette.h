@@ -48,4 +48,16 @@ double SphereRadius(int joint, LoadClass load_class, const PersonModel& model);
 /// and is hidden by other limbs. `height`: stature of the person, m.
 double SphereDepth(int joint, double height);
 
+/// Of the marks of a person, m.
+struct MarkSizes {
+  double com, com_depth;  // the sphere of the CoM: radius, and depth as of a load sphere
+  double com_ring;        // outer radius of the ring on the floor below it
+  double com_line;        // radius of the line between them
+  double cop_edge, cop;   // radii of the disc of the CoP with and without its white edge
+};
+/// `height`: stature of the person, m.
+MarkSizes MarkSizesOf(double height);
+inline constexpr double kComRingHole = 0.78;    // its radius, as a share of the ring's
+inline constexpr double kSupportWidth = 0.006;  // m, of the lines of the support polygon
+
 }  // namespace kinescope

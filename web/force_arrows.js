@@ -1,5 +1,6 @@
 // The ground reaction force on each foot as an arrow from its centre of pressure. World frame: z up, metres.
 import * as THREE from 'three';
+import { makeLitMaterial } from './lit_material.js';
 
 const METRES_PER_NEWTON = 1e-3;  // as in pictures and RViz
 const SHAFT = 0.009, HEAD = 0.024, HEAD_LENGTH = 0.06;  // m; radii, and the length of the head
@@ -14,12 +15,10 @@ const head = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 
 export const ARROW_SHAPES = [shaft, head];
 
 /** Shared by all people: where nothing is in front of an arrow, and where something is.
- *  @param {THREE.Color} color */
-export const makeArrowMaterials = (color) => ({
-  solid: new THREE.MeshStandardMaterial({ color, roughness: 0.55 }),
-  occluded: new THREE.MeshBasicMaterial({
-    color, transparent: true, opacity: OCCLUDED_OPACITY, depthWrite: false, depthFunc: THREE.GreaterDepth,
-  }),
+ *  @param {number[]} rgb */
+export const makeArrowMaterials = (rgb) => ({
+  solid: makeLitMaterial(rgb),
+  occluded: makeLitMaterial(rgb, OCCLUDED_OPACITY, { transparent: true, depthWrite: false, depthFunc: THREE.GreaterDepth }),
 });
 
 /** @typedef {ReturnType<typeof makeArrowMaterials>} ArrowMaterials */

@@ -1,84 +1,40 @@
 // The person in the view: the skin, the links of /api/v1/model at the streamed poses, load spheres, CoM, CoP, support
 // polygon, ground reaction forces and hand loads. World frame: z up, metres.
 import * as THREE from 'three';
+import { RoundedBoxGeometry } from 'three/addons/geometries/RoundedBoxGeometry.js';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 import { toColor } from './colors.js';
 import { ARROW_SHAPES, ForceArrows, makeArrowMaterials, OCCLUDED_OPACITY } from './force_arrows.js';
+import { makeLitMaterial } from './lit_material.js';
+import { makeFlatMaterials, MARK_SHAPES, PointMarks } from './point_marks.js';
 import { request } from './server_api.js';
 import { SkinnedBody } from './skin.js';
 import { readSkin } from './skin_buffer.js';
+import { Spheres } from './spheres.js';
 import { theme } from './theme.js';
 
-const SPHERE_DEPTH = 0.11;      // m, by which a sphere counts as nearer than its joint's centre
-const RIM = 1.14;               // radius of the dark rim of the class "high", as a multiple of the sphere's radius
+const HELD_ROUNDING = 0.04;     // radius of the edges of a box, as a share of its side
 const CREASE = 0.7;             // rad; edges with a smaller angle are shaded smooth
-const MARKER_LIFT = 0.004;      // m above the floor, so that disc and floor do not flicker
-const SUPPORT_LIFT = 0.003;     // m above the floor; the support polygon is below the markers
 
-const unitSphere = new THREE.SphereGeometry(1, 32, 20);
 // Shapes of hand loads, scaled to their sizes.
-const unitBox = new THREE.BoxGeometry(1, 1, 1);
+const unitBox = new RoundedBoxGeometry(1, 1, 1, 3, HELD_ROUNDING);
 const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2);
 /** @type {Set<THREE.BufferGeometry>} */
-const SHARED = new Set([unitSphere, unitBox, unitCylinder, ...ARROW_SHAPES]);
+const SHARED = new Set([unitBox, unitCylinder, ...ARROW_SHAPES, ...MARK_SHAPES]);
 
 /** @typedef {import('./messages.js').Visual} Visual
  *  @typedef {import('./messages.js').Palette} Palette
  *  @typedef {Pick<import('./messages.js').Look, 'loads'|'style'> & {hidden: import('./scene_parts.js').ScenePart[]}} HumanLook */
 
-/** Makes what `material` draws count as nearer by `depth` than its centre: a load sphere is drawn over the limb around
- *  it, and is hidden by other limbs.
- *  @template {THREE.Material} T
- *  @param {T} material
- *  @param {number} depth  m
- *  @returns {T} */
-function nearer(material, depth) {
-  material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-      vec3 center = modelViewMatrix[3].xyz;
-      vec4 before = projectionMatrix * vec4(center * (1.0 - ${depth.toFixed(4)} / length(center)), 1.0);
-      gl_Position.z = before.z / before.w * gl_Position.w;`);
-  };
-  material.customProgramCacheKey = () => `nearer ${depth}`;
-  return material;
-}
-
-/** Two materials: opaque where the marker is unobstructed, and translucent without depth test, so that it is visible
- *  through the body.
- *  @param {THREE.Color} color */
-function makeMarkerMaterial(color) {
-  const solid = nearer(new THREE.MeshStandardMaterial({ color, roughness: 0.55 }), SPHERE_DEPTH);
-  const occluded = new THREE.MeshBasicMaterial({
-    color, transparent: true, opacity: OCCLUDED_OPACITY, depthTest: false, depthWrite: false,
-  });
-  return { solid, occluded };
-}
-
-/** @param {THREE.BufferGeometry} geometry
- *  @param {ReturnType<typeof makeMarkerMaterial>} materials */
-function markerMesh(geometry, materials) {
-  const group = new THREE.Group();
-  const solid = new THREE.Mesh(geometry, materials.solid);
-  const occluded = new THREE.Mesh(geometry, materials.occluded);
-  occluded.renderOrder = 10;
-  group.add(solid, occluded);
-  return group;
-}
-
 /** Materials of the markers, shared by all people.
  *  @param {Palette} palette */
 export function makeMarkerMaterials(palette) {
   return {
-    classes: Object.fromEntries(
-      palette.classes.map(({ name, color }) => [name, makeMarkerMaterial(toColor(color))])),
-    rim: nearer(new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }), SPHERE_DEPTH - 0.01),
-    com: makeMarkerMaterial(toColor(palette.com)),
-    cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
-    force: makeArrowMaterials(toColor(palette.cop)),
-    line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
-    support: new THREE.LineBasicMaterial({ color: toColor(palette.support) }),
-    held: new THREE.MeshStandardMaterial({ color: toColor(palette.held), roughness: 0.6 }),
+    flat: makeFlatMaterials(palette, OCCLUDED_OPACITY),
+    force: makeArrowMaterials(palette.cop),
+    held: makeLitMaterial(palette.held),
+    staleHeld: makeLitMaterial(palette.stale_body),
   };
 }
 
@@ -97,7 +53,9 @@ export class Human {
   #links = /** @type {THREE.Group[]} */ ([]);
   #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
   #held = /** @type {THREE.Mesh[]} */ ([]);
-  #spheres = /** @type {Map<number, {group: THREE.Group, rim: THREE.Mesh}>} */ (new Map());
+  #sizes;
+  #marks;
+  #spheres = new Spheres(OCCLUDED_OPACITY);
 
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
@@ -119,15 +77,10 @@ export class Human {
       this.group.add(group);
     }
     if (model.skin !== null) this.#loadSkin(model.skin, onChange);
-    this.com = markerMesh(unitSphere, markers.com);
-    this.com.scale.setScalar(0.03);
-    this.comLine = new THREE.Line(
-      new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), markers.line);
-    this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), markers.com.solid);
-    this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), markers.cop);
-    this.support = new THREE.LineLoop(new THREE.BufferGeometry(), markers.support);
+    this.#sizes = model.marks;
+    this.#marks = new PointMarks(model.marks, markers.flat);
     this.forces = new ForceArrows(markers.force);
-    this.group.add(this.com, this.comLine, this.comRing, this.cop, this.support, this.forces.group);
+    this.group.add(this.#spheres.group, this.#marks.com, this.#marks.cop, this.#marks.support, this.forces.group);
   }
 
   /** @param {import('./state_codec.js').Person} person
@@ -145,10 +98,10 @@ export class Human {
       this.#links[i]?.quaternion.fromArray(quaternion);
     });
     this.#updateSpheres(person, isLive);
-    this.#updatePoints(person, isLive, floor);
-    this.#updateSupport(person, isLive, floor);
+    this.#marks.update(person, floor);
+    if (!isLive) this.#marks.hide();
     this.forces.update(isLive ? person.feet : []);
-    this.#updateHeld(person);
+    this.#updateHeld(person, isLive);
     this.#hide();
   }
 
@@ -156,17 +109,16 @@ export class Human {
     for (const part of this.#look.hidden) for (const each of this.#partsOf(part)) each.visible = false;
   }
 
-  /** What of the person is a part of the scene.
+  /** What of the person is a part of the scene, without spheres.
    *  @param {import('./scene_parts.js').ScenePart} part
    *  @returns {THREE.Object3D[]} */
   #partsOf(part) {
     switch (part) {
       case 'body': return [...this.#links, ...this.#skin?.bodies ?? []];
       case 'shadows': return this.#skin?.shadows ?? [];
-      case 'loads': return [...this.#spheres.values()].map(({ group }) => group);
-      case 'com': return [this.com, this.comLine, this.comRing];
-      case 'cop': return [this.cop];
-      case 'support': return [this.support];
+      case 'com': return [this.#marks.com];
+      case 'cop': return [this.#marks.cop];
+      case 'support': return [this.#marks.support];
       case 'forces': return [this.forces.group];
       case 'hand_loads': return this.#held;
       default: return [];
@@ -196,6 +148,8 @@ export class Human {
   dispose() {
     this.#isDisposed = true;
     this.#skin?.dispose();
+    this.#spheres.dispose();
+    this.#marks.dispose();
     this.group.removeFromParent();
     this.group.traverse((part) => {
       if (hasGeometry(part) && !SHARED.has(part.geometry)) part.geometry.dispose();
@@ -248,57 +202,24 @@ export class Human {
       ({ joint, loadClass: isLive ? loadClass : 'unknown' })) : null);
   }
 
-  /** People without a skin keep them.
+  /** Of loads, which people without a skin keep, and of the CoM.
    *  @param {import('./state_codec.js').Person} person
    *  @param {boolean} isLive */
-  #updateSpheres(person, isLive) {
-    const hasSpheres = this.#skin === null || this.#look.loads !== 'skin';
-    for (const load of person.loads) {
-      const sphere = this.#spheres.get(load.joint) ?? this.#addSphere(load.joint);
-      const loadClass = isLive ? load.loadClass : 'unknown';
-      const { solid, occluded } = this.markers.classes[loadClass];
-      const [front, through] = sphere.group.children[0].children;
-      /** @type {THREE.Mesh} */ (front).material = solid;
-      /** @type {THREE.Mesh} */ (through).material = occluded;
-      sphere.rim.visible = loadClass === 'high';
-      sphere.group.position.fromArray(load.position);
-      sphere.group.scale.setScalar(load.radius);
-    }
-    for (const [joint, { group }] of this.#spheres) {
-      group.visible = hasSpheres && person.loads.some((load) => load.joint === joint);
-    }
+  #updateSpheres({ loads, com }, isLive) {
+    const { hidden } = this.#look, { classes, com: color } = this.palette;
+    const hasLoads = (this.#skin === null || this.#look.loads !== 'skin') && !hidden.includes('loads');
+    const spheres = !hasLoads ? [] : loads.map(({ joint, loadClass, position, radius }) => {
+      const known = isLive ? loadClass : 'unknown', look = classes.find(({ name }) => name === known);
+      return { center: position, radius, depth: this.#sizes.depths[joint], color: look?.color ?? [0, 0, 0], rim: look?.rim ?? 0 };
+    });
+    const { com: radius, com_depth: depth } = this.#sizes;
+    if (com && isLive && !hidden.includes('com')) spheres.push({ center: com, radius, depth, color, rim: 0 });
+    this.#spheres.show(spheres);
   }
 
   /** @param {import('./state_codec.js').Person} person
-   *  @param {boolean} isLive
-   *  @param {number} floor */
-  #updatePoints(person, isLive, floor) {
-    const { com, cop } = person;
-    for (const part of [this.com, this.comLine, this.comRing]) part.visible = com !== null && isLive;
-    this.cop.visible = cop !== null && isLive;
-    if (com) {
-      this.com.position.fromArray(com);
-      this.comLine.position.fromArray(com);
-      this.comLine.scale.z = Math.max(0.001, com[2] - floor);
-      this.comRing.position.set(com[0], com[1], floor + MARKER_LIFT);
-    }
-    if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARKER_LIFT / 2);
-  }
-
-  /** The support polygon.
-   *  @param {import('./state_codec.js').Person} person
-   *  @param {boolean} isLive
-   *  @param {number} floor */
-  #updateSupport({ support }, isLive, floor) {
-    this.support.visible = isLive && support.length > 1;
-    if (!this.support.visible) return;
-    const points = support.map(([x, y]) => new THREE.Vector3(x, y, floor + SUPPORT_LIFT));
-    this.support.geometry.dispose();
-    this.support.geometry = new THREE.BufferGeometry().setFromPoints(points);
-  }
-
-  /** @param {import('./state_codec.js').Person} person */
-  #updateHeld({ held }) {
+   *  @param {boolean} isLive */
+  #updateHeld({ held }, isLive) {
     while (this.#held.length < held.length) {
       const mesh = new THREE.Mesh(unitBox, this.markers.held);
       this.#held.push(mesh);
@@ -309,23 +230,12 @@ export class Human {
       mesh.visible = solid !== undefined;
       if (!solid) return;
       mesh.castShadow = this.#skin === null;  // a skin has a soft shadow, as in the server's pictures
+      mesh.material = isLive ? this.markers.held : this.markers.staleHeld;
       mesh.geometry = solid.kind === 'box' ? unitBox : unitCylinder;
       mesh.position.fromArray(solid.position);
       mesh.quaternion.fromArray(solid.quaternion);
       mesh.scale.fromArray(solid.size);
     });
-  }
-
-  /** @param {number} joint */
-  #addSphere(joint) {
-    const group = new THREE.Group();
-    const rim = new THREE.Mesh(unitSphere, this.markers.rim);
-    rim.scale.setScalar(RIM);
-    group.add(markerMesh(unitSphere, this.markers.classes.unknown), rim);
-    this.group.add(group);
-    const sphere = { group, rim };
-    this.#spheres.set(joint, sphere);
-    return sphere;
   }
 
   /** @param {THREE.Group} link

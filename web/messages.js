@@ -200,9 +200,13 @@ const readVisual = object({
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
 });
 const readOutlinePoint = object({ link: number, position: numbers(3), radius: number });
+const readMarkSizes = object({
+  depths: numbers(), com: number, com_depth: number, com_ring: number, com_line: number, cop_edge: number, cop: number,
+});
 const readPersonModel = object({
   character: number, revision: number, ghost_opacity: numberOrNull, skin: orNull(string),
   links: listOf(object({ visuals: listOf(readVisual) })), outline: listOf(readOutlinePoint),
+  marks: readMarkSizes,
 });
 const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb, size: number, rim: number }));
 const readPalette = object({
@@ -229,6 +233,7 @@ export const readModel = object({
 /** @typedef {ReturnType<typeof readVisual>} Visual
  *  @typedef {ReturnType<typeof readOutlinePoint>} OutlinePoint  a ball that moves with a link, m
  *  @typedef {ReturnType<typeof readPersonModel>} PersonModel
+ *  @typedef {ReturnType<typeof readMarkSizes>} MarkSizes  m; depths: of the sphere of each joint
  *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
  *  @typedef {ReturnType<typeof readTrail>} TrailLook  segment: number of its link; -1: the centre of mass
  *  @typedef {ReturnType<typeof readLook>} Look

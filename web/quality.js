@@ -3,6 +3,8 @@
 const SLOW_FRAME_MILLIS = 45;
 const QUICK_FRAME_MILLIS = 25;
 const FRAMES_MEASURED = 24;
+const MEASURED_MILLIS = 1500, LEAST_FRAMES = 5;  // a very slow view is not watched for 24 frames
+const HIDDEN_MILLIS = 2000;  // between two frames: the view was hidden, not slow
 const MOST_REDUCTIONS = 3;
 const FIRST_PATIENCE = 5;  // quick measurements before the next level is tried again
 const MOST_PATIENCE = 320;
@@ -12,6 +14,7 @@ export const REST_MILLIS = 300;
 export class Quality {
   #reductions = 0;
   #frameMillis = /** @type {number[]} */ ([]);
+  #measuredMillis = 0;
   #quickMeasurements = 0;
   #patience = FIRST_PATIENCE;
   #isFixed;
@@ -24,11 +27,14 @@ export class Quality {
 
   /** @param {number} elapsed  since the last frame, ms */
   measure(elapsed) {
-    if (this.#isFixed || elapsed > 500) return;  // the view was hidden, not slow
+    if (this.#isFixed || elapsed >= HIDDEN_MILLIS) return;
     this.#frameMillis.push(elapsed);
-    if (this.#frameMillis.length < FRAMES_MEASURED) return;
-    const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_MEASURED / 2];
+    this.#measuredMillis += elapsed;
+    const count = this.#frameMillis.length;
+    if (count < FRAMES_MEASURED && (count < LEAST_FRAMES || this.#measuredMillis < MEASURED_MILLIS)) return;
+    const median = this.#frameMillis.sort((a, b) => a - b)[Math.floor(count / 2)];
     this.#frameMillis = [];
+    this.#measuredMillis = 0;
     this.#quickMeasurements = median <= QUICK_FRAME_MILLIS ? this.#quickMeasurements + 1 : 0;
     if (median >= SLOW_FRAME_MILLIS && this.#reductions < MOST_REDUCTIONS) {
       this.#reductions += 1;

@@ -62,7 +62,7 @@ urdf::Mesh MarkMesh(int parts) {
     all.Append(mesh, Eigen::Affine3d::Identity());
     all.Paint(first, Color(rgb), part);
   };
-  add(urdf::RingMesh(0.78, kMarkCorners), kComColor, kComRing);
+  add(urdf::RingMesh(kComRingHole, kMarkCorners), kComColor, kComRing);
   add(urdf::CylinderMesh(1, 1), kComColor, kComLine);
   add(urdf::DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
   add(urdf::DiscMesh(kMarkCorners), kCopColor, kCopDisc);
@@ -112,12 +112,12 @@ Eigen::Affine3d At(double x, double y, double z, double scale_xy, double scale_z
 
 // A line on the floor.
 Eigen::Affine3d Edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  constexpr double kWidth = 0.006, kHeight = 0.001, kAboveFloor = 0.004;
+  constexpr double kHeight = 0.001, kAboveFloor = 0.004;
   const Eigen::Vector2d middle = 0.5 * (from + to), along = to - from;
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
   place.translate(Eigen::Vector3d(middle.x(), middle.y(), kAboveFloor));
   place.rotate(Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ()));
-  place.scale(Eigen::Vector3d(along.norm() + kWidth, kWidth, kHeight));
+  place.scale(Eigen::Vector3d(along.norm() + kSupportWidth, kSupportWidth, kHeight));
   return place;
 }
 
@@ -261,7 +261,7 @@ void PersonActors::PlaceShadow(const PersonState& person) {
 void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, const Camera& camera,
                                double metres_per_pixel) {
   const double height = person.model->human.skeleton.height;
-  const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
+  const MarkSizes sizes = MarkSizesOf(height);
   looks_.clear();
   sphere_names_.clear();
   for (const JointLoad& load : person.loads) {
@@ -277,12 +277,12 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
     for (int part = 0; part < (is_ghost ? kGhostMarkParts : kMarkParts); ++part) marks->Hide(part);
     if (person.com) {
       const Eigen::Vector3d& com = *person.com;
-      marks->Place(kComRing, At(com.x(), com.y(), 0.004, 0.062 * size));
-      marks->Place(kComLine, At(com.x(), com.y(), 0.5 * com.z(), 0.0035 * size, com.z()));
+      marks->Place(kComRing, At(com.x(), com.y(), 0.004, sizes.com_ring));
+      marks->Place(kComLine, At(com.x(), com.y(), 0.5 * com.z(), sizes.com_line, com.z()));
     }
     if (person.cop) {
-      marks->Place(kCopEdge, At(person.cop->x(), person.cop->y(), 0.006, 0.046 * size));
-      marks->Place(kCopDisc, At(person.cop->x(), person.cop->y(), 0.008, 0.038 * size));
+      marks->Place(kCopEdge, At(person.cop->x(), person.cop->y(), 0.006, sizes.cop_edge));
+      marks->Place(kCopDisc, At(person.cop->x(), person.cop->y(), 0.008, sizes.cop));
     }
     if (!is_ghost) {
       const SupportPolygon& support = person.forces.support;
@@ -294,7 +294,7 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
     marks->Commit();
   }
   if (person.com) {
-    looks_.push_back({*person.com, 0.034 * size, 0.068 * size, kComColor, 0});
+    looks_.push_back({*person.com, sizes.com, sizes.com_depth, kComColor, 0});
     sphere_names_.emplace_back("centre of mass");
   }
   double largest = 0;

@@ -84,6 +84,7 @@ json ToJson(const Rule& rule) {
     default: break;
   }
   all[rule.quantity == Quantity::kMargin ? "below" : "above"] = rule.limit;
+  if (rule.limit_class != LoadClass::kUnknown) all["above_class"] = Name(rule.limit_class);
   all["band"] = rule.band;
   return all;
 }
@@ -103,9 +104,9 @@ std::string NewsJson(const Alarm& alarm, Change change) {
 
 std::string LogJson(const Alarms& alarms) {
   json rules = json::array();
-  for (const Rule& rule : alarms.rules().rules) rules.push_back(ToJson(rule));
+  for (const Rule& rule : alarms.rules()) rules.push_back(ToJson(rule));
   return JsonText(json{{"rules", std::move(rules)},
-                       {"tells_webhook", !alarms.rules().webhook.empty()},
+                       {"tells_webhook", alarms.tells_webhook()},
                        {"alarms", AlarmsJson(alarms.log(Alarms::kMostKept), Alarms::kMostKept)}});
 }
 

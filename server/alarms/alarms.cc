@@ -22,9 +22,9 @@ bool IsReadOfStates(const Rule& rule) {
   return !IsOfSilence(rule) && rule.quantity != Quantity::kLoss;
 }
 
-Rules WithLost(Rules rules) {
+std::vector<Rule> WithLost(Rules rules) {
   rules.rules.push_back(LostRule(rules.lost_secs));
-  return rules;
+  return std::move(rules.rules);
 }
 
 std::string ValueText(const Rule& rule, double value) {
@@ -81,7 +81,15 @@ const char* Name(Change change) {
 }
 
 Alarms::Alarms(Rules rules, bool is_live, OnChange on_change)
-    : rules_(WithLost(std::move(rules))), is_live_(is_live), on_change_(std::move(on_change)) {}
+    : tells_webhook_(!rules.webhook.empty()),
+      is_live_(is_live),
+      on_change_(std::move(on_change)),
+      rules_(WithLost(std::move(rules))) {}
+
+std::vector<Rule> Alarms::rules() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return rules_;
+}
 
 void Alarms::OnState(const SceneState& state) {
   if (state.liveness == Liveness::kNoData) return;
@@ -90,6 +98,7 @@ void Alarms::OnState(const SceneState& state) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = {state.number, state.made_nanos, state.stamp_nanos};
+    for (Rule& rule : rules_) FollowClassLimits(state.class_limits, rule);
     const bool is_live = state.liveness == Liveness::kLive;
     if (is_live) sample_nanos_ = state.made_nanos;
     for (const PersonState& person : state.people) {
@@ -112,8 +121,8 @@ void Alarms::Meet(const PersonState& person) {
 }
 
 void Alarms::LookAtPerson(const SceneState& state, const PersonState& person, Changes& changes) {
-  for (std::size_t place = 0; place < rules_.rules.size(); ++place) {
-    const Rule& rule = rules_.rules[place];
+  for (std::size_t place = 0; place < rules_.size(); ++place) {
+    const Rule& rule = rules_[place];
     if (!IsReadOfStates(rule)) continue;
     const auto watched = watched_.find({place, person.character});
     const Alarm* const alarm = watched == watched_.end() ? nullptr : Find(watched->second.alarm);
@@ -129,8 +138,8 @@ void Alarms::EndLoadsOfAbsent(const SceneState& state, Changes& changes) {
       return each.character == character;
     };
     if (std::any_of(state.people.begin(), state.people.end(), is_this)) continue;
-    for (std::size_t place = 0; place < rules_.rules.size(); ++place) {
-      if (IsReadOfStates(rules_.rules[place])) Forget({place, character}, newest_, changes);
+    for (std::size_t place = 0; place < rules_.size(); ++place) {
+      if (IsReadOfStates(rules_[place])) Forget({place, character}, newest_, changes);
     }
   }
 }
@@ -142,8 +151,8 @@ void Alarms::OnTime(std::int64_t now_nanos, std::optional<double> loss) {
     const std::lock_guard<std::mutex> lock(mutex_);
     Moment now = newest_;
     now.made_nanos = std::max(now_nanos, newest_.made_nanos);
-    for (std::size_t place = 0; place < rules_.rules.size(); ++place) {
-      if (rules_.rules[place].quantity != Quantity::kLoss) continue;
+    for (std::size_t place = 0; place < rules_.size(); ++place) {
+      if (rules_[place].quantity != Quantity::kLoss) continue;
       Look({place, kStream}, {loss, std::nullopt}, now, changes);
     }
     LookAtSilence(now, changes);
@@ -156,8 +165,8 @@ void Alarms::OnTime(std::int64_t now_nanos, std::optional<double> loss) {
 void Alarms::LookAtSilence(const Moment& now, Changes& changes) {
   if (!is_live_ || !sample_nanos_) return;
   const double stream_secs = Secs(now.made_nanos - *sample_nanos_);
-  for (std::size_t place = 0; place < rules_.rules.size(); ++place) {
-    const Rule& rule = rules_.rules[place];
+  for (std::size_t place = 0; place < rules_.size(); ++place) {
+    const Rule& rule = rules_[place];
     if (!IsOfSilence(rule)) continue;
     Look({place, kStream}, {stream_secs, std::nullopt}, now, changes);
     if (rule.quantity != Quantity::kLost) continue;
@@ -169,7 +178,7 @@ void Alarms::LookAtSilence(const Moment& now, Changes& changes) {
 }
 
 void Alarms::Look(const Key& key, const Reading& reading, const Moment& at, Changes& changes) {
-  const Rule& rule = rules_.rules[key.first];
+  const Rule& rule = rules_[key.first];
   Watched& watched = watched_[key];
   const Watch::Step step = watched.watch.OnValue(rule, reading.value, at);
   if (step == Watch::Step::kBegins) Begin(key, watched, changes);
@@ -192,7 +201,7 @@ void Alarms::Begin(const Key& key, Watched& watched, Changes& changes) {
   } else {
     Alarm begun;
     begun.id = watched.alarm = ++last_id_;
-    begun.rule = rules_.rules[key.first];
+    begun.rule = rules_[key.first];
     begun.began = watched.watch.since();
     if (key.second != kStream) {
       const std::string& name = people_[key.second].name;
@@ -246,7 +255,7 @@ tl::expected<Alarm, std::string> Alarms::Acknowledge(std::uint64_t id, const std
     if (alarm->rule.quantity == Quantity::kLost && alarm->character) {
       const int character = *alarm->character;
       people_.erase(character);
-      Forget({rules_.rules.size() - 1, character}, newest_, changes);
+      Forget({rules_.size() - 1, character}, newest_, changes);
     }
     events = EventsOf(changes);
   }

@@ -71,7 +71,9 @@ class Alarms {
 
   std::vector<Alarm> shown() const;  // highest priority first, then newest first
   std::vector<Alarm> log(std::size_t most = kMostKept) const;  // newest first, with those shown
-  const Rules& rules() const { return rules_; }  // with the one that is always watched
+  /// With the one that is always watched, and limits as they are now.
+  std::vector<Rule> rules() const;
+  bool tells_webhook() const { return tells_webhook_; }
 
   static constexpr std::size_t kMostKept = 1000;
 
@@ -104,11 +106,11 @@ class Alarms {
   // Without it:
   void Tell(const Events& events) const;
 
-  const Rules rules_;
-  const bool is_live_;
+  const bool tells_webhook_, is_live_;
   const OnChange on_change_;
   mutable std::mutex mutex_;
   // Guarded by mutex_:
+  std::vector<Rule> rules_;
   std::map<Key, Watched> watched_;
   std::map<int, Person> people_;  // by character, who have been seen and are expected again
   std::deque<Alarm> alarms_;      // by ascending id

@@ -39,6 +39,12 @@ const char* Name(Priority priority) {
   return "";
 }
 
+void FollowClassLimits(const std::array<double, 2>& class_limits, Rule& rule) {
+  if (rule.limit_class == LoadClass::kUnknown) return;
+  rule.limit = class_limits[rule.limit_class == LoadClass::kHigh ? 1 : 0];
+  if (rule.band_share > 0) rule.band = rule.band_share * rule.limit;
+}
+
 Rule LostRule(double lost_secs) {
   Rule rule;
   rule.name = "lost";

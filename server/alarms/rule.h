@@ -1,6 +1,7 @@
 /// What raises an alarm. Plain values; any thread.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,7 +42,10 @@ struct Rule {
   std::optional<int> joint;  // urdf::Joint, one with a load; nullopt: the joint with the most
   LoadClass least_class = LoadClass::kHigh;  // of kClass: that raises; of kExposure: that counts
   double limit = 0;
+  /// Of kRatio: the limit is where this class begins, and follows it; kUnknown: it stays.
+  LoadClass limit_class = LoadClass::kUnknown;
   double band = 0;
+  double band_share = 0;  // of the limit, if it follows a class; 0: the band stays
   double for_secs = 0;
   double over_secs = 1;
   Priority priority = Priority::kMedium;
@@ -54,6 +58,10 @@ struct Rules {
   double lost_secs = 2;  // of Quantity::kLost
   std::string webhook;   // URL that hears of every alarm; "": none
 };
+
+/// Sets the limit of a rule that follows a class.
+/// @param class_limits the load ratios where medium and high begin
+void FollowClassLimits(const std::array<double, 2>& class_limits, Rule& rule);
 
 /// The rule that is always watched.
 Rule LostRule(double lost_secs);

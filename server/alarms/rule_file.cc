@@ -27,7 +27,7 @@ const char* const kDefaultRules = R"(rules:
     priority: high
   - name: high load
     value: ratio
-    above: 0.66
+    above: high
     for: 1
   - name: unsteady
     value: margin
@@ -75,6 +75,7 @@ bool IsOfSignal(Quantity quantity) {
 const char* LimitKey(Quantity quantity) {
   return quantity == Quantity::kMargin ? "below" : "above";
 }
+bool IsClass(const std::string& word) { return word == "medium" || word == "high"; }
 const char* ClassKey(Quantity quantity) { return quantity == Quantity::kClass ? "at_least" : "of"; }
 
 std::vector<std::string> JointNames() {
@@ -252,9 +253,16 @@ class Reader {
     const char* const key = LimitKey(rule.quantity);
     const YAML::Node limit = node[key];
     if (!limit) Refuse(node, fmt::format("{}: {} is missing", rule.name, key));
-    rule.limit = Number(limit, key, info.least, info.most);
-    rule.band = rule.quantity == Quantity::kMargin ? info.band : info.band * rule.limit;
-    if (const YAML::Node band = node["band"]) rule.band = Number(band, "band", 0, info.most);
+    const YAML::Node band = node["band"];
+    if (rule.quantity == Quantity::kRatio && limit.IsScalar() && IsClass(limit.Scalar())) {
+      rule.limit_class = limit.Scalar() == "high" ? LoadClass::kHigh : LoadClass::kMedium;
+      rule.band_share = band ? 0 : info.band;
+      FollowClassLimits(kDefaultClassLimits, rule);
+    } else {
+      rule.limit = Number(limit, key, info.least, info.most);
+      rule.band = rule.quantity == Quantity::kMargin ? info.band : info.band * rule.limit;
+    }
+    if (band) rule.band = Number(band, "band", 0, info.most);
   }
 
   void ReadJoint(const YAML::Node& node, Rule& rule) const {

@@ -206,6 +206,21 @@ json OutlineToJson(const PersonModel& model) {
   return outline;
 }
 
+json MarksToJson(double height) {
+  const MarkSizes sizes = MarkSizesOf(height);
+  json depths = json::array();
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    depths.push_back(SphereDepth(joint, height));
+  }
+  return {{"depths", std::move(depths)},
+          {"com", sizes.com},
+          {"com_depth", sizes.com_depth},
+          {"com_ring", sizes.com_ring},
+          {"com_line", sizes.com_line},
+          {"cop_edge", sizes.cop_edge},
+          {"cop", sizes.cop}};
+}
+
 json ClassesToJson() {
   json classes = json::array();
   for (const LoadClass load_class : kLoadClasses) {
@@ -282,6 +297,7 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
                       {"revision", person.model->revision},
                       {"ghost_opacity", ghost_opacity ? json(*ghost_opacity) : json()},
                       {"height_m", person.model->human.skeleton.height},
+                      {"marks", MarksToJson(person.model->human.skeleton.height)},
                       {"mass_kg", body.mass_kg},
                       {"mass_is_assumed", body.mass_is_assumed},
                       {"skin", is_skin ? json(SkinUrl(person)) : json(nullptr)},

@@ -52,6 +52,8 @@ const std::vector<Library>& Libraries() {
       {"/lib/three/three.core.js", "three/build/three.core.js"},
       {"/lib/three/addons/controls/OrbitControls.js",
        "three/examples/jsm/controls/OrbitControls.js"},
+      {"/lib/three/addons/geometries/RoundedBoxGeometry.js",
+       "three/examples/jsm/geometries/RoundedBoxGeometry.js"},
       {"/lib/three/addons/loaders/GLTFLoader.js", "three/examples/jsm/loaders/GLTFLoader.js"},
       {"/lib/three/addons/loaders/STLLoader.js", "three/examples/jsm/loaders/STLLoader.js"},
       {"/lib/three/addons/utils/BufferGeometryUtils.js",

@@ -97,8 +97,8 @@ geometry_msgs::Point PointAt(const Eigen::Vector3d& position) {
 
 void AddSupport(const BodyForces& forces, double floor_z, MarkerWriter& out) {
   if (forces.support.size < 2) return;
-  constexpr double kLineWidth = 0.006;
-  Marker& line = out.AddShape(kSupport, 0, Marker::LINE_STRIP, {kLineWidth, 0, 0}, kSupportColor);
+  Marker& line =
+      out.AddShape(kSupport, 0, Marker::LINE_STRIP, {kSupportWidth, 0, 0}, kSupportColor);
   for (std::size_t i = 0; i <= forces.support.size; ++i) {  // closed: ends at the first corner
     const Eigen::Vector2d& corner = forces.support.corners[i % forces.support.size];
     line.points.push_back(PointAt({corner.x(), corner.y(), floor_z}));
@@ -140,12 +140,13 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
                   SphereRadius(load.joint, load.load_class, *person.model),
                   ColorOf(load.load_class));
   }
+  const MarkSizes sizes = MarkSizesOf(person.model->human.skeleton.height);
   if (person.com) {
-    out.AddToLink(urdf::kPelvis, kCom, 0, *person.com, kComRadius, kComColor);
+    out.AddToLink(urdf::kPelvis, kCom, 0, *person.com, sizes.com, kComColor);
   }
   if (person.cop) {
-    out.Add(kCop, 0, Marker::CYLINDER, *person.cop, {2 * kCopRadius, 2 * kCopRadius, kCopThickness},
-            kCopColor);
+    out.Add(kCop, 0, Marker::CYLINDER, *person.cop,
+            {2 * sizes.cop_edge, 2 * sizes.cop_edge, kCopThickness}, kCopColor);
   }
   AddSupport(person.forces, floor_z, out);
   AddFootForces(person.forces, out);

@@ -17,8 +17,6 @@ namespace kinescope::ros_bridge {
 inline constexpr double kMarkerLifetime = 1.0;
 
 // m
-inline constexpr double kComRadius = 0.04;
-inline constexpr double kCopRadius = 0.05;
 inline constexpr double kCopThickness = 0.01;
 
 enum class MarkerFrames {

@@ -9,34 +9,10 @@ import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
 import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
 import {
-  cameraOf, folder, grown, LONG, mask, MARKS, overlap, PLAIN, record, serve, serverPixels, stateOf, whatCovers,
+  cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, settled, stateOf, whatCovers,
 } from './same_pixels.mjs';
 
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
-const EVERYTHING = { route: '**/api/v1/model', address: 'api/v1/skin', answer: hidePeople };
-
-/** They have the models of reference poses, and an outline still, by which the camera is where it was. */
-async function hidePeople(route) {
-  const response = await route.fetch(), model = await response.json();
-  for (const person of model.people) person.ghost_opacity = 0;
-  await route.fulfill({ response, json: model });
-}
-
-test("body, loads, forces and points cover the same pixels on the page and in the server's picture", async () => {
-  const file = await record('lift', 1, []), person = ['--hand_load', 'both:10'], camera = 'three_quarter';
-  const site = await serve(file, ['--loop', ...person, '--pictures', 'off']);
-  const { page, covered, size, close } = await whatCovers(site, camera, EVERYTHING, { 'status-word': 'Recording' });
-  await saveScreenshot(page, 'same_lift');
-  const sameCamera = await cameraOf(page, camera, size);
-  const draw = (hidden) => serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...person]);
-  const inPicture = mask(await draw('shadows'), await draw(`body,shadows,${MARKS}`));
-  const { share, either } = overlap(covered, inPicture, NOTHING_LEFT_OUT(covered));
-  assert.ok(either > 0.02 * covered.length, `${either} pixels`);
-  assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
-  await close();
-  await site.stop();
-});
-
 test('a former moment covers the same pixels on the page and in a picture', async () => {
   const file = join(folder, 'moving.mvnx'), place = 0.5, ghost = ['--ghost', 't_pose'];
   execFileSync(process.env.KINESCOPE, ['convert', 'demo:lift', '--seconds', '2', '--rate_hz', '60', '--out', file], { stdio: 'ignore' });
@@ -58,6 +34,56 @@ test('a former moment covers the same pixels on the page and in a picture', asyn
 
 const START_MICROS = 3600e6;  // of the clock of a server that stops at a moment
 const SKIN = { route: '**/api/v1/skin/**', address: 'api/v1/skin' };
+const POINTS = ['com', 'cop', 'support', 'forces', 'loads', 'hand_loads'];
+
+/** Nothing moves: live and computed afterwards, with what comes later known, forces are the same. */
+const still = (frame) => frame.replace(/(<(?:velocity|acceleration|angularVelocity|angularAcceleration)>)([^<]*)/g,
+  (_, tag, values) => tag + values.replace(/[^ ]+/g, '0'));
+
+/** Left, right, top and bottom of what is covered. */
+function boxOf(covered, { width }) {
+  const box = [Infinity, -Infinity, Infinity, -Infinity];
+  covered.forEach((bit, i) => {
+    if (!bit) return;
+    const x = i % width, y = Math.floor(i / width);
+    box.splice(0, 4, Math.min(box[0], x), Math.max(box[1], x), Math.min(box[2], y), Math.max(box[3], y));
+  });
+  return box;
+}
+
+test('each mark has the size that it has in the picture', async () => {
+  const file = await record('lift', 1, [], still), person = ['--hand_load', 'both:10'];
+  const site = await serve(file, ['--loop', ...person, '--pictures', 'off']);
+  const hide = (shown) => ['body', 'shadows', ...POINTS].filter((each) => each !== shown).join();
+  const open = async (shown) => {
+    const visit = await openPage(`${site.url}?quality=steady&camera=three_quarter&hide=${hide(shown)}`,
+      { colorScheme: 'dark', context: { reducedMotion: 'reduce' } });  // the camera does not follow slowly
+    await visit.page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
+    await onlyView(visit.page, true);
+    return visit;
+  };
+  const bare = await open(''), empty = await settled(bare.page), size = { width: empty.width, height: empty.height };
+  const sameCamera = await cameraOf(bare.page, 'three_quarter', size);
+  const draw = (shown) => serverPixels(bare.page, file, sameCamera, size, [...PLAIN, hide(shown), ...person]);
+  const nothing = await draw('');
+  for (const part of POINTS) {
+    const visit = await open(part);
+    const onPage = mask(await settled(visit.page), empty), inPicture = mask(await draw(part), nothing);
+    await saveScreenshot(visit.page, `same_${part}`);
+    for (const [one, other, of] of [[onPage, inPicture, 'page'], [inPicture, onPage, 'picture']]) {
+      const { share, count } = found(one, other, NOTHING_LEFT_OUT(one), size);
+      assert.ok(count > 40, `${part}: ${count} pixels on the ${of}`);
+      assert.ok(share >= 0.99, `${part}: ${share.toFixed(4)} of the pixels of the ${of} are within a pixel of the other's`);
+    }
+    const [here, there] = [boxOf(onPage, size), boxOf(inPicture, size)];
+    here.forEach((edge, i) => assert.ok(Math.abs(edge - there[i]) <= 2, `${part}: ${here} on the page, ${there} in the picture`));
+    assert.deepEqual(visit.problems, []);
+    await visit.close();
+  }
+  await bare.close();
+  await site.stop();
+});
+
 const BESIDE = { route: /api\/v1\/(surroundings\.glb|skin\/1000000\/)/, address: 'api/v1/skin/1000000' };
 const MARKERS = { route: '**/api/v1/surroundings.glb*', address: 'api/v1/surroundings.glb' };
 const NOTHING_LEFT_OUT = (covered) => new Uint8Array(covered.length);

@@ -88,9 +88,9 @@ void SayFaults(const std::vector<std::string>& faults) {
 }
 
 // Where results go.
-class Output {
+class ResultsOut {
  public:
-  explicit Output(const std::string& path) {
+  explicit ResultsOut(const std::string& path) {
     if (path != "-") file_.emplace(path);
   }
 
@@ -257,7 +257,7 @@ class Batch {
   const BatchOptions& options_;
   const JobList list_;
   const std::string path_;
-  Output output_;  // before the results are read: nobody else changes them then
+  ResultsOut output_;  // before the results are read: nobody else changes them then
   std::vector<FoundResults> found_;
   std::vector<std::string> faults_;
   std::vector<JobStanding> standings_;

@@ -121,7 +121,7 @@ std::vector<Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& 
   std::vector<Diagnosis> all = {DiagnosisOfStream(state, stream)};
   for (const NodeClock& clock : stream.clocks) all.push_back(DiagnosisOfClock(clock));
   const std::vector<alarms::Alarm> shown = alarms.shown();
-  for (const alarms::Rule& rule : alarms.rules().rules) {
+  for (const alarms::Rule& rule : alarms.rules()) {
     all.push_back(DiagnosisOfRule(rule, shown));
   }
   return all;

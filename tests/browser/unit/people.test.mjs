@@ -12,7 +12,8 @@ const palette = {
   ghost: { on_light: rgb, on_dark: rgb, share: 0.75 },
 };
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
-const modelOf = (character, revision = 1) => ({ character, revision, ghost_opacity: null, skin: null, links: [{ visuals: [box] }] });
+const marks = { depths: Array(22).fill(0.1), com: 0.034, com_depth: 0.068, com_ring: 0.062, com_line: 0.0035, cop_edge: 0.046, cop: 0.038 };
+const modelOf = (character, revision = 1) => ({ character, revision, ghost_opacity: null, skin: null, links: [{ visuals: [box] }], marks });
 const personOf = (character) => ({ character, links: [{ position: [0, 0, 1], quaternion: [0, 0, 0, 1] }],
   loads: [], support: [], feet: [], held: [], com: null, cop: null });
 const stateOf = (seconds, ...characters) =>
@@ -94,14 +95,20 @@ test('bodies of style clay have its colour, and those without live data that of 
   assert.deepEqual(colorOf({ ...matte, style: 'line' }, true), toColor(palette.body), 'the page draws no lines');
 });
 
+/** The spheres that are drawn: centre and radius. */
+function ballsOf(human) {
+  const [spheres] = human.children.filter(({ children: [mesh] }) => mesh?.material?.uniforms?.balls);
+  const { balls, count } = spheres.children[0].material.uniforms;
+  return balls.value.slice(0, spheres.visible ? count.value : 0).map((ball) => ball.toArray());
+}
+
 test('people without a skin keep their load spheres', () => {
   const { people } = twoPeople();
   const state = stateOf(100, 0);
   state.people[0].loads = [{ joint: 3, loadClass: 'high', radius: 0.05, position: [0, 0, 1] }];
   people.setLook({ loads: 'skin', style: 'matte', hidden: [] });
   people.update(state, true);
-  const sphere = people.group.children[0].children.at(-1);
-  assert.ok(sphere.visible && sphere.scale.x === 0.05);
+  assert.deepEqual(ballsOf(people.group.children[0]), [[0, 0, 1, 0.05]]);
   assert.equal(people.hasSkins, false);
 });
 
@@ -113,12 +120,13 @@ test('hidden parts of a person are not drawn, and the others are', () => {
     const state = stateOf(100, 0);
     Object.assign(state.people[0], { loads: [{ joint: 3, loadClass: 'high', radius: 0.05, position: [0, 0, 1] }], com: [0, 0, 1], cop: [0, 0, 0] });
     people.update(state, true);
-    return human.children.map(({ visible }) => visible);
+    return { parts: human.children.map(({ visible }) => visible), balls: ballsOf(human).length };
   };
   const all = shown([]);
-  for (const [part, count] of [['loads', 1], ['com', 3], ['cop', 1], ['markers', 0]]) {
+  for (const [part, balls, count] of [['loads', 1, 0], ['com', 1, 1], ['cop', 0, 1], ['markers', 0, 0]]) {
     const without = shown([part]);
-    const differ = without.filter((visible, i) => visible !== all[i]);
+    const differ = without.parts.filter((visible, i) => visible !== all.parts[i]);
+    assert.equal(all.balls - without.balls, balls, part);
     assert.equal(differ.length, count, part);
     assert.ok(!differ.includes(true));
   }

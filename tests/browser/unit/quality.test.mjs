@@ -47,6 +47,14 @@ test('frames that are neither slow nor quick change nothing, nor does a view tha
   assert.equal(quality.reductions, 1);
 });
 
+test('a very slow view is reduced within a few frames, and one hitch is not taken for that', () => {
+  const slow = new Quality(false), hitched = new Quality(false);
+  for (let i = 0; i < 5; ++i) slow.measure(600);
+  assert.equal(slow.reductions, 1);
+  for (const millis of [900, 16, 16, 16, 16, 16]) hitched.measure(millis);
+  assert.equal(hitched.reductions, 0);
+});
+
 test('a fixed quality is never reduced', () => {
   const quality = new Quality(true);
   measure(quality, 10, 60);

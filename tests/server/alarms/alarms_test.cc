@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ class AlarmsTest : public ::testing::Test {
       state.stamp_nanos = state.made_nanos + 7;
       state.liveness = liveness;
       state.people = people;
+      state.class_limits = class_limits_;
       for (PersonState& person : state.people) person.sample.stamp_nanos = state.stamp_nanos;
       alarms_->OnState(state);
     }
@@ -67,6 +69,7 @@ class AlarmsTest : public ::testing::Test {
 
   std::optional<Alarms> alarms_;
   std::vector<std::string> events_;
+  std::array<double, 2> class_limits_ = kDefaultClassLimits;
   std::uint64_t number_ = 0;
   std::int64_t now_nanos_ = 5'000'000'000;
 };
@@ -247,6 +250,20 @@ TEST_F(AlarmsTest, ClassesAreThoseThatPeopleSee) {
   Feed({person}, 3);
   EXPECT_THAT(events_, ElementsAre("red of Anna: began"));
   EXPECT_EQ(alarms_->shown()[0].joint, urdf::kScoredJoints[1]);
+}
+
+TEST_F(AlarmsTest, ALimitThatIsAClassFollowsTheLimitsOfTheClasses) {
+  Start("rules:\n  - {name: red, value: ratio, above: high, over_after: 0}");
+  Feed({MakePerson(0, {0.59})});
+  EXPECT_THAT(events_, IsEmpty());
+  Feed({MakePerson(0, {0.61})});
+  EXPECT_THAT(events_, ElementsAre("red of Anna: began"));
+  class_limits_ = {0.4, 0.8};
+  Feed({MakePerson(0, {0.79})});
+  EXPECT_EQ(events_.size(), 1u) << "within the band of 5 %";
+  Feed({MakePerson(0, {0.75})});
+  EXPECT_EQ(events_.back(), "red of Anna: over");
+  EXPECT_EQ(alarms_->rules()[0].limit, 0.8);
 }
 
 TEST_F(AlarmsTest, TheLogIsBounded) {

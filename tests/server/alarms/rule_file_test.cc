@@ -66,6 +66,17 @@ TEST(RuleFile, ReadsEveryKey) {
   EXPECT_FALSE(rule.latches);
 }
 
+TEST(RuleFile, ALoadRatioMayHaveTheLimitOfAClass) {
+  const Rule rule = OneRule("{name: a, value: ratio, above: medium}");
+  EXPECT_EQ(rule.limit_class, LoadClass::kMedium);
+  EXPECT_EQ(rule.limit, kDefaultClassLimits[0]);
+  EXPECT_EQ(rule.band, 0.05 * kDefaultClassLimits[0]);
+  const Rule wide = OneRule("{name: a, value: ratio, above: high, band: 0.2}");
+  EXPECT_EQ(wide.band, 0.2);
+  EXPECT_THAT(ErrorOf("rules:\n  - {name: a, value: margin, below: high}"),
+              HasSubstr("below: high: expected a number"));
+}
+
 TEST(RuleFile, ClassesBeginAtTheClassThatIsNamed) {
   const Rule medium = OneRule("{name: a, value: class, at_least: medium}");
   EXPECT_LT(static_cast<double>(LoadClass::kLow), medium.limit);

@@ -42,6 +42,10 @@ TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   EXPECT_EQ(person["revision"], 7);
   EXPECT_EQ(person["height_m"], 1.75);
   EXPECT_EQ(person["mass_is_assumed"], true);
+  EXPECT_EQ(person["marks"]["com_ring"], MarkSizesOf(1.75).com_ring);
+  ASSERT_EQ(person["marks"]["depths"].size(), static_cast<std::size_t>(urdf::kJointCount));
+  EXPECT_EQ(person["marks"]["depths"][urdf::kJointCount - 1],
+            SphereDepth(urdf::kJointCount - 1, 1.75));
   ASSERT_EQ(person["links"].size(), static_cast<std::size_t>(urdf::kSegmentCount));
   std::size_t told = 0, known = 0;
   for (const json& link : person["links"]) {
