@@ -13,6 +13,7 @@ import {
 } from './same_pixels.mjs';
 
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+
 test('a former moment covers the same pixels on the page and in a picture', async () => {
   const file = join(folder, 'moving.mvnx'), place = 0.5, ghost = ['--ghost', 't_pose'];
   execFileSync(process.env.KINESCOPE, ['convert', 'demo:lift', '--seconds', '2', '--rate_hz', '60', '--out', file], { stdio: 'ignore' });

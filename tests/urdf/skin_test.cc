@@ -134,6 +134,27 @@ TEST(SkinTemplate, RejectsWhatIsNoSkin) {
   EXPECT_THROW(FromBytes(bytes.substr(0, bytes.size() - 1)), std::runtime_error);
 }
 
+// As the two sides of a furrow do that grow through each other: a tear along the back. Where arm
+// and trunk of the heaviest have grown together, a few of 1 cm are, in the depth of the armpit.
+TEST(SkinTemplate, TurnsNoTrianglesOverForLightAndHeavyPeople) {
+  constexpr int kInArmpits = 30;
+  const SkinTemplate& skin = BuiltInSkin();
+  const auto normal_of = [](const std::vector<Vector3f>& at, const Triangle& t) {
+    return (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]).normalized().eval();
+  };
+  for (const double woman : {0.0, 1.0}) {
+    const std::vector<Vector3f> average = skin.Blend({woman, 0});
+    for (const double heavy : {-0.45, 1.0, 1.6}) {
+      const std::vector<Vector3f> other = skin.Blend({woman, heavy});
+      int turned = 0;
+      for (const Triangle& t : skin.triangles) {
+        turned += normal_of(average, t).dot(normal_of(other, t)) < 0 ? 1 : 0;
+      }
+      EXPECT_LE(turned, kInArmpits) << "woman: " << woman << ", heavy: " << heavy;
+    }
+  }
+}
+
 TEST(BuildOf, FollowsTheBodyMassIndex) {
   EXPECT_NEAR(BuildOf(false, 1.75, 75).heavy, 0, 1e-9);
   EXPECT_NEAR(BuildOf(false, 1.75, 105).heavy, 1, 1e-9);

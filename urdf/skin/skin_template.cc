@@ -25,12 +25,13 @@ Build BuildOf(bool is_woman, double height, double mass) {
   const double reference = is_woman ? 62 / (1.62 * 1.62) : 75 / (1.75 * 1.75);  // kg/m^2
   const double index = mass / (height * height);
   const double more = (index - reference) * urdf::kReferenceHeight * urdf::kReferenceHeight;
-  return {is_woman ? 1.0 : 0.0, std::clamp(more / kHeavyKilograms, -0.45, 1.6)};
+  return {is_woman ? 1.0 : 0.0, std::clamp(more / kHeavyKilograms, -0.45, kHeaviest)};
 }
 
 std::vector<Eigen::Vector3f> SkinTemplate::Blend(const Build& build) const {
   if (corners[1].empty()) return corners[0];
-  const auto woman = static_cast<float>(build.woman), heavy = static_cast<float>(build.heavy);
+  const auto woman = static_cast<float>(build.woman),
+             heavy = static_cast<float>(build.heavy / kHeaviest);
   const std::array<float, kCorners> share = {(1 - woman) * (1 - heavy), woman * (1 - heavy),
                                              (1 - woman) * heavy, woman * heavy};
   std::vector<Eigen::Vector3f> positions(size(), Eigen::Vector3f::Zero());

@@ -20,9 +20,11 @@ struct Build {
   double heavy = 0;  // 1: with kHeavyKilograms more; negative: lighter
 };
 inline constexpr double kHeavyKilograms = 30;
+inline constexpr double kHeaviest = 1.6;
 
 /// Of a person of this stature, m, and mass, kg. Equal body mass indices give equal builds; within
-/// what still looks like a person, -0.45 to 1.6. An unknown stature (0) gives the average build.
+/// what still looks like a person, -0.45 to kHeaviest. An unknown stature (0) gives the average
+/// build.
 Build BuildOf(bool is_woman, double height, double mass);
 
 inline constexpr std::size_t kInfluences = 4;
@@ -35,7 +37,7 @@ struct VertexWeights {
 using Triangle = std::array<std::uint16_t, 3>;  // counter-clockwise from outside
 
 struct SkinTemplate {
-  static constexpr std::size_t kCorners = 4;  // man, woman, heavy man, heavy woman
+  static constexpr std::size_t kCorners = 4;  // man, woman, heaviest man, heaviest woman
   /// Positions, m. Of a skin that is the same for all builds, only the first.
   std::array<std::vector<Eigen::Vector3f>, kCorners> corners;
   std::vector<VertexWeights> weights;

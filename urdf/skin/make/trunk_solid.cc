@@ -67,7 +67,7 @@ double TrunkSolid::Growth(const Point& p) const {
 }
 
 double TrunkSolid::operator()(const Point& p) const {
-  const double woman = build_.woman, lean = 1 - 0.8 * build_.heavy;
+  const double woman = build_.woman, lean = std::max(1 - 0.8 * build_.heavy, 0.0);
   const double z = p.z(), side = std::abs(p.y());
   // Relief: how far the surface stands out of its loft.
   const double front = Ramp(0.02, 0.09, p.x()), back = Ramp(-0.02, -0.085, p.x());
