@@ -28,7 +28,7 @@ const char* const kDefaultRules = R"(rules:
   - name: high load
     value: ratio
     above: high
-    for: 1
+    for: 2
   - name: unsteady
     value: margin
     below: -0.10

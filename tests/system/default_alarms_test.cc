@@ -51,5 +51,17 @@ TEST(DefaultAlarms, AreRaisedWhereSomebodyLiftsTooMuch) {
               ::testing::Contains(::testing::HasSubstr("L5/S1 compression")));
 }
 
+TEST(DefaultAlarms, AreRaisedForALoadThatIsShownAsHigh) {
+  EXPECT_THAT(AlarmsIn("demo:squat", 5, "--hand_load both:20"),
+              ::testing::Contains(::testing::HasSubstr("more than 60 %")));
+  EXPECT_THAT(AlarmsIn("demo:squat", 5, "--hand_load both:20 --class_limits 0.6,0.9"),
+              ::testing::Contains(::testing::HasSubstr("more than 90 %")));
+}
+
+TEST(DefaultAlarms, AreRaisedForSomebodyWhoFalls) {
+  EXPECT_THAT(AlarmsIn("pose:vertical_pelvis=20", 5),
+              ::testing::Contains(::testing::HasSubstr("margin of stability")));
+}
+
 }  // namespace
 }  // namespace kinescope
