@@ -61,6 +61,7 @@ TEST(OverlayLayer, HasTheSizeOfThePictureAndIsReproducible) {
   spec.title = "Ümlaut & <tag>";
   spec.parts.scale = spec.parts.frame_code = true;
   renderer->Render(state, camera, spec);
+  spec.overlays = true;
   const std::string svg = renderer->OverlayLayer(state, camera, spec, LayerFormat::kSvg);
   EXPECT_THAT(svg, HasSubstr("width=\"321px\" height=\"180px\""));
   EXPECT_THAT(svg, Not(HasSubstr("<image"))) << "vectors, no pixels";
