@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -37,7 +38,11 @@ Progress::Progress(std::string what, int total)
 
 Progress::~Progress() {
   if (form_ == ProgressForm::kAuto && done_ > 0) std::fputc('\n', stderr);
-  if (form_ == ProgressForm::kJson && drawn_done_ < done_) PrintJson();
+  try {
+    if (form_ == ProgressForm::kJson && drawn_done_ < done_) PrintJson();
+  } catch (const std::exception&) {
+    // Without memory for a line nobody is told how far it got.
+  }
 }
 
 double Progress::secs() const {

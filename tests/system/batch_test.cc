@@ -162,7 +162,7 @@ TEST_F(Batch, NamesJobsWhoseDiskIsFullAndDoesTheOthers) {
     EXPECT_THAT(each.at("reason"), AllOf(HasSubstr("large.csv"), HasSubstr("No space left")));
   }
   EXPECT_THAT(result.out, AllOf(HasSubstr("small.csv"), Not(HasSubstr("disk/large.csv.part"))));
-  EXPECT_THAT(result.out, HasSubstr("kinescope batch")) << "it does not say what to do next";
+  EXPECT_THAT(result.out, HasSubstr("--retry failed")) << "it does not say what to do next";
 }
 
 // Nobody would know what has been done.

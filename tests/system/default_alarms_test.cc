@@ -58,10 +58,5 @@ TEST(DefaultAlarms, AreRaisedForALoadThatIsShownAsHigh) {
               ::testing::Contains(::testing::HasSubstr("more than 90 %")));
 }
 
-TEST(DefaultAlarms, AreRaisedForSomebodyWhoFalls) {
-  EXPECT_THAT(AlarmsIn("pose:vertical_pelvis=20", 5),
-              ::testing::Contains(::testing::HasSubstr("margin of stability")));
-}
-
 }  // namespace
 }  // namespace kinescope

@@ -29,7 +29,7 @@ fs::path FindBrowserInPath(const std::string& name) {
   const std::string folders = variable == nullptr ? "/usr/bin" : variable;
   for (std::size_t at = 0; at <= folders.size();) {
     const std::size_t end = std::min(folders.find(':', at), folders.size());
-    const fs::path path = fs::path(folders.substr(at, end - at)) / name;
+    fs::path path = fs::path(folders.substr(at, end - at)) / name;
     if (end > at && IsBrowserProgram(path)) return path;
     at = end + 1;
   }
@@ -112,7 +112,7 @@ fs::path FindChromium() {
   }
   for (const char* name :
        {"chromium", "chromium-browser", "google-chrome", "google-chrome-stable"}) {
-    const fs::path path = FindBrowserInPath(name);
+    fs::path path = FindBrowserInPath(name);
     if (!path.empty()) return path;
   }
   throw std::runtime_error(fmt::format(

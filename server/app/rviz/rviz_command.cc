@@ -54,7 +54,7 @@ ros_bridge::RunningNode Choose(const std::string& name) {
 std::string UsualConfig() {
   const auto path = FindResource("launch/kinescope.rviz");
   std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (text.empty()) {
     throw UsageError(
         "launch/kinescope.rviz was not found beside the program; install Kinescope "

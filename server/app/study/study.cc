@@ -276,7 +276,7 @@ class Reader {
   }
 
   std::string PersonOf(const Entry& entry, const PersonLoads& person, std::size_t people) const {
-    const std::string label = TextOf(entry.labels, settings_.person);
+    std::string label = TextOf(entry.labels, settings_.person);
     if (people == 1 && !label.empty()) return label;
     const std::string name =
         person.name.empty() ? fmt::format("person {}", person.number) : person.name;
