@@ -86,7 +86,8 @@ export class ControlTrials {
     const note = noteOf(state);
     if (parts.note.textContent !== note) parts.note.textContent = note;
     const names = (files?.files ?? []).map(({ name }) => name);
-    const drawn = JSON.stringify([this.#trials, names, state.jobs.filter(({ state: is }) => is === 'waiting' || is === 'making')]);
+    const making = state.jobs.filter(({ state: is }) => is === 'waiting' || is === 'making');
+    const drawn = JSON.stringify([state.trial?.trial, this.#trials, names, making]);
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     const ended = this.#trials.filter(({ trial }) => trial !== state.trial?.trial);

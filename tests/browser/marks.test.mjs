@@ -32,6 +32,7 @@ async function open(url, options) {
   await visit.page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
   await visit.page.waitForFunction(() => Number(document.getElementById('moment').min) < -1, null, LONG);
   await visit.page.waitForFunction(() => document.getElementById('role').dataset.role !== undefined, null, LONG);
+  await visit.page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
   return visit;
 }
 const lines = async () => (await readFile(file, 'utf8')).trim().split('\n').map((line) => JSON.parse(line));
@@ -110,15 +111,18 @@ test('a live mark is of the sample that is drawn, within one', async () => {
 test('a mark of a moment that is gone, or that has not come, is refused in words, and live goes on', async () => {
   const { page, close } = await open(site.url);
   const count = (await lines()).length;
+  let wrong = /** @type {number|null} */ (null);  // state that is sent in place of the one on the screen
+  await page.route('**/api/v1/mark', (route) => route.continue(wrong === null ? {} : {
+    postData: JSON.stringify({ ...route.request().postDataJSON(), state: wrong }) }));
   for (const [state, sentence] of [[0, /^The mark was not set: state 0 is no longer kept \(--history_minutes\)$/],
     [1e9, /^The mark was not set: state 1000000000 has not come yet; the newest one is \d+$/]]) {
-    await page.route('**/api/v1/mark', (route) => route.continue(
-      { postData: JSON.stringify({ ...route.request().postDataJSON(), state }) }), { times: 1 });
+    wrong = state;
     await page.keyboard.press('1');
     await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').textContent), sentence.source, LONG);
     assert.equal(await page.textContent('#status-word'), 'Live');
   }
   assert.equal((await lines()).length, count);
+  wrong = null;
   await page.keyboard.press('1');
   await saidIs(page, /^Marked: “grasp”/);
   await close();
