@@ -61,6 +61,7 @@ const linked = shownIn(new URL(location.href));
 theme?.choose(linked.theme);
 const layout = new Layout(linked.view, document.body);
 const keys = new Keys(document, () => layout.hasControls);
+layout.follow(() => { elements['body-map'].tabIndex = layout.hasControls ? 0 : -1; });  // its page scrolls by keys
 const person = new ChosenPerson();
 person.choose(linked.person);
 const shown = new Shown({
