@@ -29,15 +29,19 @@ export async function raiseAlarm(site, page, isOn = true) {
   await stateIs(page, [isOn ? 'on' : 'over']);
 }
 
-/** Until it is over and acknowledged. */
+/** Until it is over and acknowledged, and so is the alarm for those who have left the stream before, which comes two
+ *  seconds later. */
 export async function endAlarm(site, page) {
   site.say('compression 2150');
-  await stateIs(page, ['over', 'none']);
-  await page.evaluate(async () => {
-    const { alarms } = await (await fetch('api/v1/alarms')).json();
-    for (const { id } of alarms.filter((alarm) => alarm.is_shown)) {
-      await fetch('api/v1/acknowledge', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ id }) });
+  const acknowledged = page.evaluate(async () => {
+    while (document.getElementById('alarm').dataset.state !== 'none') {
+      const { alarms } = await (await fetch('api/v1/alarms')).json();
+      for (const { id } of alarms.filter(({ is_shown: isShown, acknowledged: by, over, rule }) => isShown && by === null
+        && (over !== null || rule === 'lost'))) {
+        await fetch('api/v1/acknowledge', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ id }) });
+      }
+      await new Promise(requestAnimationFrame);
     }
   });
-  await stateIs(page, ['none']);
+  await Promise.all([acknowledged, stateIs(page, ['none'])]);
 }

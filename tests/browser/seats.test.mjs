@@ -211,18 +211,21 @@ test('an address that is nonsense is a page as it begins', async () => {
   await close();
 });
 
+const marksOf = (page) => page.evaluate(async () => (await (await fetch('api/v1/marks')).json()).marks);
+
 /** A mark has the sample that the picture shows, not the newest one. Of live pictures the fixture draws every fourth state.
  *  @param {any} page
  *  @param {() => Promise<number>|null} stateIn  of the picture; null: it is live */
 async function markedIsInPicture(page, stateIn) {
   for (let i = 0; i < 4; ++i) {
-    const before = await page.evaluate(async () => (await (await fetch('api/v1/marks')).json()).marks.length);
+    const count = (await marksOf(page)).length;
     const wanted = await stateIn();
     await page.keyboard.press('2');
-    const mark = await page.waitForFunction(async (count) => {
-      const { marks } = await (await fetch('api/v1/marks')).json();
-      return marks.length > count && marks.at(-1);
-    }, before, LONG).then((handle) => handle.jsonValue());
+    const until = Date.now() + LONG.timeout;
+    let marks = await marksOf(page);
+    while (marks.length === count && Date.now() < until) marks = await marksOf(page);
+    assert.equal(marks.length, count + 1, 'a mark has been set');
+    const mark = marks.at(-1);
     if (wanted === null) assert.equal(mark.at.state % 4, 0, `marked ${mark.at.state}, which is in no picture`);
     else assert.equal(mark.at.state, wanted);
   }
