@@ -8,6 +8,7 @@ import argparse
 import collections
 import os
 import pwd
+import re
 import signal
 import tempfile
 import time
@@ -58,7 +59,9 @@ class Array:
         said = self.cluster.tell("sacct", "-D", "-X", "-n", "-P", "-j", ",".join(self.ids), "-o", "JobID,State,ExitCode")
         for line in said.splitlines():
             name, *end = line.split("|")
-            found[int(name.split("_")[1])].append(" ".join(end))
+            task = re.fullmatch(r"\d+_(\d+)", name)  # until the database knows its array, a task has a number of its own
+            if task:
+                found[int(task[1])].append(" ".join(end))
         return found
 
 
