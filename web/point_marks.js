@@ -14,8 +14,9 @@ const CORNERS = 32;
 const ring = new THREE.RingGeometry(RING_HOLE, 1, CORNERS);
 const disc = new THREE.CircleGeometry(1, CORNERS);
 const line = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, -0.5);  // from 0 down
+const axis = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]);
 /** Shared by all people. */
-export const MARK_SHAPES = [ring, disc, line];
+export const MARK_SHAPES = [ring, disc, line, axis];
 
 /** Shared by all people: where nothing is in front of a mark, and where something is.
  *  @param {THREE.Color} color
@@ -35,6 +36,9 @@ function flat(color, opacity) {
 export const makeFlatMaterials = (palette, opacity) => ({
   com: flat(toColor(palette.com), opacity), edge: flat(new THREE.Color(1, 1, 1), opacity), cop: flat(toColor(palette.cop), opacity),
   support: flat(toColor(palette.support), opacity),
+  // Of one pixel: what is thinner would have gaps where edges are not smoothed.
+  comLine: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
+  supportLine: new THREE.LineBasicMaterial({ color: toColor(palette.support) }),
 });
 
 /** @param {THREE.BufferGeometry} shape
@@ -51,10 +55,13 @@ export class PointMarks {
   com = new THREE.Group();
   cop = new THREE.Group();
   /** It does not shine through shoes. */
-  support;
+  support = new THREE.Group();
   #sizes;
   #ring;
   #line;
+  #axis;
+  #edges;
+  #outline;
 
   /** @param {MarkSizes} sizes
    *  @param {ReturnType<typeof makeFlatMaterials>} materials */
@@ -62,15 +69,18 @@ export class PointMarks {
     this.#sizes = sizes;
     this.#ring = mark(ring, materials.com, 0);
     this.#line = mark(line, materials.com, 0);
-    this.com.add(this.#ring, this.#line);
+    this.#axis = new THREE.Line(axis, materials.comLine);
+    this.com.add(this.#ring, this.#line, this.#axis);
     const edge = mark(disc, materials.edge, 0), inner = mark(disc, materials.cop, 1);
     edge.scale.setScalar(sizes.cop_edge);
     inner.scale.setScalar(sizes.cop);
     edge.position.z = EDGE_LIFT;
     inner.position.z = DISC_LIFT;
     this.cop.add(edge, inner);
-    this.support = new THREE.Mesh(new THREE.BufferGeometry(), materials.support.solid);
-    this.support.frustumCulled = false;
+    this.#edges = new THREE.Mesh(new THREE.BufferGeometry(), materials.support.solid);
+    this.#outline = new THREE.LineLoop(new THREE.BufferGeometry(), materials.supportLine);
+    for (const part of [this.#edges, this.#outline]) part.frustumCulled = false;
+    this.support.add(this.#edges, this.#outline);
   }
 
   /** @param {import('./state_codec.js').Person} person
@@ -83,11 +93,13 @@ export class PointMarks {
       this.#ring.position.set(com[0], com[1], floor + RING_LIFT);
       this.#ring.scale.setScalar(this.#sizes.com_ring);
       const top = com[2] - this.#sizes.com;  // below the sphere: it must not shine through that
-      this.#line.position.set(com[0], com[1], top);
-      this.#line.scale.set(this.#sizes.com_line, this.#sizes.com_line, Math.max(0.001, top - floor));
+      for (const part of [this.#line, this.#axis]) {
+        part.position.set(com[0], com[1], top);
+        part.scale.set(this.#sizes.com_line, this.#sizes.com_line, Math.max(0.001, top - floor));
+      }
     }
     if (cop) this.cop.position.fromArray(cop);
-    if (this.support.visible) this.#outline(support, floor + SUPPORT_LIFT);
+    if (this.support.visible) this.#drawSupport(support, floor + SUPPORT_LIFT);
   }
 
   hide() {
@@ -96,7 +108,7 @@ export class PointMarks {
 
   /** @param {number[][]} corners
    *  @param {number} z */
-  #outline(corners, z) {
+  #drawSupport(corners, z) {
     const points = [], triangles = [];
     for (const [i, [x0, y0]] of corners.entries()) {
       const [x1, y1] = corners[(i + 1) % corners.length];
@@ -106,13 +118,15 @@ export class PointMarks {
       points.push(x0 - u - v, y0 - v + u, z, x0 - u + v, y0 - v - u, z, x1 + u + v, y1 + v - u, z, x1 + u - v, y1 + v + u, z);
       triangles.push(first, first + 1, first + 2, first, first + 2, first + 3);
     }
-    this.support.geometry.dispose();
-    this.support.geometry = new THREE.BufferGeometry();
-    this.support.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-    this.support.geometry.setIndex(triangles);
+    this.dispose();
+    this.#edges.geometry = new THREE.BufferGeometry();
+    this.#edges.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+    this.#edges.geometry.setIndex(triangles);
+    this.#outline.geometry = new THREE.BufferGeometry().setFromPoints(corners.map(([x, y]) => new THREE.Vector3(x, y, z)));
   }
 
   dispose() {
-    this.support.geometry.dispose();
+    this.#edges.geometry.dispose();
+    this.#outline.geometry.dispose();
   }
 }

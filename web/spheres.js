@@ -25,16 +25,10 @@ function domes() {
     part.fill(i, i * corners.count, (i + 1) * corners.count);
     triangles.array.forEach((corner, at) => { index[i * triangles.count + at] = corner + i * corners.count; });
   }
-  const all = new THREE.BufferGeometry();
-  all.setAttribute('position', new THREE.BufferAttribute(position, 3));
-  all.setAttribute('part', new THREE.BufferAttribute(part, 1));
-  all.setIndex(new THREE.BufferAttribute(index, 1));
-  return { geometry: all, each: triangles.count };
+  return { position, part, index, each: triangles.count };
 }
 
-const shared = domes();
-/** Shared by all people. */
-export const DOMES = shared.geometry;
+const DOMES = domes();
 
 const VERTEX = `
   attribute float part;
@@ -105,8 +99,10 @@ export class Spheres {
 
   /** @param {number} ghostOpacity  of what shines through */
   constructor(ghostOpacity) {
-    for (const name of ['position', 'part']) this.#domes.setAttribute(name, DOMES.getAttribute(name));
-    this.#domes.setIndex(DOMES.getIndex());
+    // Attributes of its own: three.js deletes the buffers of those of a geometry that is given back.
+    this.#domes.setAttribute('position', new THREE.BufferAttribute(DOMES.position, 3));
+    this.#domes.setAttribute('part', new THREE.BufferAttribute(DOMES.part, 1));
+    this.#domes.setIndex(new THREE.BufferAttribute(DOMES.index, 1));
     const common = {
       balls: { value: this.#balls }, looks: { value: this.#looks }, depths: { value: this.#depths }, count: this.#count,
     };
@@ -132,7 +128,7 @@ export class Spheres {
     const shown = spheres.slice(0, CAPACITY);
     this.#count.value = shown.length;
     this.group.visible = shown.length > 0;
-    this.#domes.setDrawRange(0, shown.length * shared.each);
+    this.#domes.setDrawRange(0, shown.length * DOMES.each);
     shown.forEach(({ center: [x, y, z], radius, depth, color: [red, green, blue], rim }, i) => {
       this.#balls[i].set(x, y, z, radius);
       this.#looks[i].set(red, green, blue, rim);

@@ -150,7 +150,7 @@ class Growth:
         """A panel for each part, both axes logarithmic: a straight line of slope one is growth in proportion."""
         commands = [f"set terminal svg size {300 * len(self.series)},280 font 'DejaVu Sans,12' background '#ffffff'",
                     f"set output '{path}'", f"set multiplot layout 1,{len(self.series)}", "set logscale xy 2", "set grid lc '#d9dee5'",
-                    "set key top left reverse Left samplen 1", "set offsets graph 0.05,0.05,0.4,0.1"]
+                    "set key top left reverse Left samplen 1", "set offsets graph 0.05, graph 0.05, graph 0.4, graph 0.1"]
         for axis, points in self.series.values():
             lines = list(points[0][1])
             for i, line in enumerate(lines):
