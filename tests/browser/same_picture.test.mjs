@@ -12,7 +12,7 @@ import {
   cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, settled, stateOf, whatCovers,
 } from './same_pixels.mjs';
 
-const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+const test = (name, body) => nodeTest(name, { timeout: 300000 }, body);  // only a failure takes so long
 
 test('a former moment covers the same pixels on the page and in a picture', async () => {
   const file = join(folder, 'moving.mvnx'), place = 0.5, ghost = ['--ghost', 't_pose'];
