@@ -15,10 +15,10 @@
 #include <cstdio>
 #include <fstream>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "urdf/skin/make/body_solid.h"
+#include "urdf/skin/make/follow.h"
 #include "urdf/skin/make/weights.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/skin_template.h"
@@ -155,97 +155,6 @@ void SortForCache(Surface& surface) {
                               surface.vertices.size());
 }
 
-struct Mesh {
-  std::vector<Triangle> triangles;
-  std::vector<std::vector<std::uint16_t>> around;  // the neighbours of each vertex
-};
-
-Mesh MeshWithNeighbours(std::size_t vertices, const std::vector<Triangle>& triangles) {
-  Mesh mesh{triangles, {}};
-  mesh.around.resize(vertices);
-  for (const Triangle& triangle : triangles) {
-    for (std::size_t side = 0; side < 3; ++side) {
-      mesh.around[triangle[side]].push_back(triangle[(side + 1) % 3]);  // closed: each edge twice
-    }
-  }
-  return mesh;
-}
-
-// Moves the vertices from the surface of `from` to that of `to`, in small steps along the normals.
-std::vector<Point> Follow(std::vector<Point> vertices, const Build& from, const Build& to) {
-  constexpr int kSteps = 10;
-  for (int step = 1; step <= kSteps; ++step) {
-    const double share = static_cast<double>(step) / kSteps;
-    const BodySolid body({kinescope::skin::Mix(from.woman, to.woman, share),
-                          kinescope::skin::Mix(from.heavy, to.heavy, share)});
-    for (Point& p : vertices) {
-      p -= body(p) * body.Normal(p);
-      if (step == kSteps) p -= body(p) * body.Normal(p);
-    }
-  }
-  return vertices;
-}
-
-// How far the vertices around one have come from `start`, on average.
-Point MeanWay(const std::vector<Point>& vertices, const std::vector<Point>& start,
-              const std::vector<std::uint16_t>& around) {
-  Point sum = Point::Zero();
-  for (const std::uint16_t other : around) sum += vertices[other] - start[other];
-  return sum / static_cast<double>(around.size());
-}
-
-Point NormalOf(const std::vector<Point>& vertices, const Triangle& t) {
-  const Point& a = vertices[t[0]];
-  return (vertices[t[1]] - a).cross(vertices[t[2]] - a).normalized();
-}
-
-// Where two limbs have grown together, vertices leave the surface rather than turn a triangle over.
-void TurnBack(const std::vector<Point>& start, const Mesh& mesh, std::vector<Point>& vertices) {
-  constexpr int kMostPasses = 200;
-  constexpr double kTurned = 0.25;  // cosine of the angle between the normals, before and after
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    std::set<std::uint16_t> turned;
-    for (const Triangle& triangle : mesh.triangles) {
-      if (NormalOf(start, triangle).dot(NormalOf(vertices, triangle)) >= kTurned) continue;
-      turned.insert(triangle.begin(), triangle.end());
-    }
-    if (turned.empty()) return;
-    const std::set<std::uint16_t> seeds = turned;
-    for (const std::uint16_t i : seeds) turned.insert(mesh.around[i].begin(), mesh.around[i].end());
-    std::vector<Point> moved = vertices;
-    for (const std::uint16_t i : turned)
-      moved[i] = start[i] + MeanWay(vertices, start, mesh.around[i]);
-    vertices.swap(moved);
-  }
-}
-
-// Likewise, and each vertex goes along the surface with those around it: normals that lead out of
-// the furrow of the spine or of an armpit meet, and triangles would be turned over there.
-std::vector<Point> FollowTogether(const std::vector<Point>& start, const Mesh& mesh,
-                                  const Build& from, const Build& to) {
-  constexpr int kSteps = 20, kRelaxations = 40;
-  std::vector<Point> vertices = start, moved = start, normals = start;
-  for (int step = 1; step <= kSteps; ++step) {
-    const double share = static_cast<double>(step) / kSteps;
-    const BodySolid body({kinescope::skin::Mix(from.woman, to.woman, share),
-                          kinescope::skin::Mix(from.heavy, to.heavy, share)});
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      normals[i] = body.Normal(vertices[i]);
-      vertices[i] -= body(vertices[i]) * normals[i];
-    }
-    for (int relaxation = 0; relaxation < kRelaxations; ++relaxation) {
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const Point more = start[i] + MeanWay(vertices, start, mesh.around[i]) - vertices[i];
-        moved[i] = vertices[i] + 0.5 * (more - more.dot(normals[i]) * normals[i]);
-      }
-      vertices.swap(moved);
-    }
-    for (Point& p : vertices) p -= body(p) * body.Normal(p);
-  }
-  TurnBack(start, mesh, vertices);
-  return vertices;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -268,12 +177,12 @@ int main(int argc, char** argv) {
   skin.weights = MakeWeights(middle, surface.vertices, surface.triangles);
   SortByLimb(surface, skin.weights);
   SortForCache(surface);
-  const Mesh mesh = MeshWithNeighbours(count, surface.triangles);
   for (std::size_t corner = 0; corner < SkinTemplate::kCorners; ++corner) {
     const Build lean{static_cast<double>(corner % 2), 0};
-    std::vector<Point> vertices = Follow(surface.vertices, kMiddle, lean);
+    std::vector<Point> vertices = kinescope::skin::Follow(surface.vertices, kMiddle, lean);
     if (corner >= 2) {
-      vertices = FollowTogether(vertices, mesh, lean, {lean.woman, kinescope::skin::kHeaviest});
+      vertices = kinescope::skin::FollowTogether(vertices, surface.triangles, lean,
+                                                 {lean.woman, kinescope::skin::kHeaviest});
     }
     for (const Point& p : vertices) {
       skin.corners[corner].push_back(p.cast<float>());

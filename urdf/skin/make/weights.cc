@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "urdf/skin/frames.h"
+#include "urdf/skin/make/neighbours.h"
 
 namespace kinescope::skin {
 namespace {
@@ -148,15 +148,9 @@ class Evener {
  public:
   Evener(const std::vector<Point>& vertices, const std::vector<Triangle>& triangles)
       : around_(vertices.size()) {
-    std::vector<std::set<std::uint32_t>> neighbours(vertices.size());
-    for (const Triangle& triangle : triangles) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        neighbours[triangle[c]].insert(triangle[(c + 1) % 3]);
-        neighbours[triangle[c]].insert(triangle[(c + 2) % 3]);
-      }
-    }
+    const Neighbours neighbours = NeighboursOf(vertices.size(), triangles);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      for (const std::uint32_t j : neighbours[i]) {
+      for (const std::uint16_t j : neighbours[i]) {
         around_[i].emplace_back(j, 1 / std::max((vertices[i] - vertices[j]).norm(), 1e-4));
       }
     }
