@@ -99,8 +99,4 @@ std::string AsRosName(const std::string& text) {
   return name;
 }
 
-bool EndsWith(std::string_view text, std::string_view ending) {
-  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
-}
-
 }  // namespace kinescope::ros_bridge

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/finger_and_prop_segments.h"
@@ -46,7 +45,5 @@ std::string AsSnakeCase(const std::string& text);
 
 /// `text` as one element of a ROS name: letters, digits and _, beginning with a letter.
 std::string AsRosName(const std::string& text);
-
-bool EndsWith(std::string_view text, std::string_view ending);
 
 }  // namespace kinescope::ros_bridge

@@ -16,6 +16,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/input_file.h"
+#include "core/system/starts_with.h"
 #include "core/system/stop_signal.h"
 #include "server/app/batch/batch_state.h"
 #include "server/app/batch/job_list.h"
@@ -45,10 +46,6 @@ struct Entry {
 
   bool is_complete() const { return state == "done" || state == "kept"; }
 };
-
-bool EndsWith(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
 
 const char* WhatIs(const std::string& option, const std::string& path) {
   if (option == "json") return "loads";

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "server/ros/names.h"
+#include "core/system/starts_with.h"
 
 namespace kinescope::ros_bridge {
 namespace {
