@@ -1,6 +1,6 @@
 // The ground reaction force on each foot as an arrow from its centre of pressure. World frame: z up, metres.
 import * as THREE from 'three';
-import { makeLitMaterial } from './lit_material.js';
+import { BEHIND, makeLitMaterial } from './lit_material.js';
 
 const METRES_PER_NEWTON = 1e-3;  // as in pictures and RViz
 const SHAFT = 0.009, HEAD = 0.024, HEAD_LENGTH = 0.06;  // m; radii, and the length of the head
@@ -18,7 +18,7 @@ export const ARROW_SHAPES = [shaft, head];
  *  @param {number[]} rgb */
 export const makeArrowMaterials = (rgb) => ({
   solid: makeLitMaterial(rgb),
-  occluded: makeLitMaterial(rgb, OCCLUDED_OPACITY, { transparent: true, depthWrite: false, depthFunc: THREE.GreaterDepth }),
+  occluded: makeLitMaterial(rgb, OCCLUDED_OPACITY, BEHIND),
 });
 
 /** @typedef {ReturnType<typeof makeArrowMaterials>} ArrowMaterials */

@@ -11,6 +11,9 @@ export const LIT = `
     return color * light * (1.0 - 0.42 * edge * edge * edge);
   }`;
 
+/** Of what is drawn where something is in front of it. */
+export const BEHIND = { transparent: true, depthWrite: false, depthFunc: THREE.GreaterDepth };
+
 const VERTEX = `
   out vec3 seenNormal;
   out float sky;

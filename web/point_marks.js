@@ -2,6 +2,7 @@
 // sizes are those of the server's pictures. World frame: z up, metres.
 import * as THREE from 'three';
 import { toColor } from './colors.js';
+import { BEHIND } from './lit_material.js';
 
 /** @typedef {import('./messages.js').MarkSizes} MarkSizes */
 
@@ -25,9 +26,7 @@ function flat(color, opacity) {
   const side = THREE.DoubleSide;
   return {
     solid: new THREE.MeshBasicMaterial({ color, side }),
-    ghost: new THREE.MeshBasicMaterial({
-      color, side, transparent: true, opacity, depthWrite: false, depthFunc: THREE.GreaterDepth,
-    }),
+    ghost: new THREE.MeshBasicMaterial({ color, side, opacity, ...BEHIND }),
   };
 }
 

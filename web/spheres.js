@@ -2,7 +2,7 @@
 // the shader of the server's pictures (render/vtk/sphere_actor.cc), so that both cover the same pixels in the same colours.
 // Each is a dome that faces the viewer, whose rim is a ring from every side. World frame: z up, metres.
 import * as THREE from 'three';
-import { LIT } from './lit_material.js';
+import { BEHIND, LIT } from './lit_material.js';
 
 /** Spheres of a person. */
 export const CAPACITY = 16;
@@ -112,7 +112,7 @@ export class Spheres {
       }),
       new THREE.ShaderMaterial({
         vertexShader: VERTEX, fragmentShader: fragment(true), uniforms: { ...common, opacity: { value: ghostOpacity } },
-        transparent: true, depthWrite: false, depthFunc: THREE.GreaterDepth,
+        ...BEHIND,
       }),
     ];
     this.#materials.forEach((each, i) => {
