@@ -41,7 +41,7 @@ Progress::~Progress() {
   try {
     if (form_ == ProgressForm::kJson && drawn_done_ < done_) PrintJson();
   } catch (const std::exception&) {
-    // Without memory for a line nobody is told how far it got.
+    // There is no memory for the last line; a destructor must not throw.
   }
 }
 

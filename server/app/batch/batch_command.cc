@@ -257,7 +257,7 @@ class Batch {
   const BatchOptions& options_;
   const JobList list_;
   const std::string path_;
-  ResultsOut output_;  // before the results are read: nobody else changes them then
+  ResultsOut output_;  // locks the results, so it is opened before they are read
   std::vector<FoundResults> found_;
   std::vector<std::string> faults_;
   std::vector<JobStanding> standings_;
