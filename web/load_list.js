@@ -5,7 +5,8 @@ import { LOAD_CLASSES } from './messages.js';
 /** @typedef {import('./messages.js').LoadClass} LoadClass
  *  @typedef {import('./messages.js').Secs} Secs
  *  @typedef {{key: string, label: string, loadClass: LoadClass, ratio: number, moment: number,
- *    capacity: number, channel: string, reason: string, isExternal?: boolean, secs?: Secs}} Row */
+ *    capacity: number, channel: string, reason: string, isExternal?: boolean, secs?: Secs, heldTo?: number}} Row
+ *    heldTo: the ratio below which the class falls, of a load that is below the limit of its class; else NaN */
 
 const RANK = { high: 0, medium: 1, low: 2, unknown: 3 };
 
@@ -40,7 +41,8 @@ export function byUrgency(rows, shownKeys = []) {
 export function explain(row) {
   if (row.loadClass === 'unknown' && row.reason) return row.reason;
   const now = moment(row.moment, row.capacity); // of this sample; the percentage beside it is held
-  const amount = now && `now ${now}`;
+  const held = Number.isFinite(row.heldTo) ? `${row.loadClass} until below ${limitPercent(row.heldTo ?? NaN)}` : '';
+  const amount = [held, now && `now ${now}`].filter(Boolean).join(', ');
   const channel = row.isExternal && row.channel !== 'external' ? `${row.channel}, external` : row.channel;
   return channel && amount ? `${amount}, ${channel}` : amount || channel;
 }
@@ -61,10 +63,17 @@ export function exposureShares(secs) {
   return LOAD_CLASSES.map((name) => (secs && all > 0 ? secs[name] / all : 0));
 }
 
+/** @param {{loadClass: LoadClass, ratio: number}} load
+ *  @param {{class_limits: number[], class_falls_below: number[]}} limits */
+function heldTo({ loadClass, ratio }, limits) {
+  const border = ['medium', 'high'].indexOf(loadClass);
+  return border >= 0 && ratio <= limits.class_limits[border] ? limits.class_falls_below[border] : NaN;
+}
+
 /** The rows of a state. With several people, each row has the name of the person.
  *  @param {import('./state_codec.js').State} state
  *  @param {{label: string}[]} joints
- *  @param {{people: import('./messages.js').PersonDetails[]}} details
+ *  @param {{people: import('./messages.js').PersonDetails[], class_limits: number[], class_falls_below: number[]}} details
  *  @returns {Row[]} */
 export function rowsOf(state, joints, details) {
   const several = state.people.length > 1;
@@ -84,6 +93,7 @@ export function rowsOf(state, joints, details) {
         reason: words?.reason ?? '',
         isExternal: words?.is_external ?? false,
         secs: words?.secs_in_band,
+        heldTo: heldTo(load, details),
       };
     });
   });
@@ -93,7 +103,7 @@ export function rowsOf(state, joints, details) {
  *  @param {Row} row
  *  @returns {Row} */
 export const asUnknown = (row) =>
-  ({ ...row, loadClass: 'unknown', ratio: NaN, moment: NaN, reason: row.reason || 'no live data' });
+  ({ ...row, loadClass: 'unknown', ratio: NaN, moment: NaN, heldTo: NaN, reason: row.reason || 'no live data' });
 
 /** @param {HTMLElement} list  an <ol>
  *  @returns {(rows: Row[]) => void} function that shows these rows */

@@ -107,7 +107,7 @@ const readRecording = object({
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
   objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
-  marks_revision: numberOrNull, surroundings: numberOrNull, class_limits: numbers(2),
+  marks_revision: numberOrNull, surroundings: numberOrNull, class_limits: numbers(2), class_falls_below: numbers(2),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad

@@ -197,6 +197,7 @@ bool SameForm(const PersonState& a, const PersonState& b) {
 
 bool SameForm(const SceneState& a, const SceneState& b) {
   return a.source == b.source && a.class_limits == b.class_limits &&
+         a.class_falls_below == b.class_falls_below &&
          std::equal(a.people.begin(), a.people.end(), b.people.begin(), b.people.end(),
                     [](const PersonState& x, const PersonState& y) { return SameForm(x, y); }) &&
          std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),

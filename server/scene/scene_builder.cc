@@ -56,7 +56,9 @@ void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
   KINESCOPE_CHECK(loads::FindDefect(settings).empty());
   options_.loads = settings;
   options_.loads.strength.sex = options_.body.sex;
-  current_.class_limits = settings.meter.up;
+  const loads::LoadMeter::Settings& meter = settings.meter;
+  current_.class_limits = meter.up;
+  current_.class_falls_below = meter.is_momentary ? meter.up : meter.down;
 }
 
 void SceneBuilder::SetMeasurements(int character, const loads::Measurements& measured) {

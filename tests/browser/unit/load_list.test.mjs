@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { byUrgency, explain, exposureShares, exposureText, rowsOf } from '../../../web/load_list.js';
+import { asUnknown, byUrgency, explain, exposureShares, exposureText, rowsOf } from '../../../web/load_list.js';
 
 const row = (key, loadClass, ratio) =>
   ({ key, label: key, loadClass, ratio, moment: -12.34, capacity: 60, channel: 'flexion', reason: '' });
@@ -56,12 +56,24 @@ test('a row states moment, capacity and direction, or why the load is unknown', 
     'both feet are off the floor');
 });
 
+test('a class that lasts below its limit says how long', () => {
+  const rowAt = (loadClass, ratio) => rowsOf(
+    { people: [{ character: 0, loads: [{ joint: 0, loadClass, ratio, moment: 30, capacity: 60 }] }] }, [{ label: 'Neck' }],
+    { people: [], class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] })[0];
+  assert.equal(explain(rowAt('high', 0.56)), 'high until below 55 %, now 30 of 60 N·m');
+  assert.equal(explain(rowAt('medium', 0.3)), 'medium until below 25 %, now 30 of 60 N·m');
+  assert.equal(explain(rowAt('high', 0.61)), 'now 30 of 60 N·m');
+  assert.equal(explain(rowAt('low', 0.29)), 'now 30 of 60 N·m');
+  assert.equal(explain(asUnknown(rowAt('high', 0.56))), 'no live data');
+});
+
 test('rows contain the names of people if there are several', () => {
   const load = { joint: 1, loadClass: 'low', ratio: 0.1, moment: 1, capacity: 10 };
   const joints = [{ label: 'L5/S1' }, { label: 'Neck' }];
   const one = { people: [{ character: 0, loads: [load] }] };
   const two = { people: [{ character: 0, loads: [load] }, { character: 3, loads: [load] }] };
-  const details = { people: [{ character: 0, name: 'P05', loads: [{ joint: 1, channel: 'bend', reason: '' }] }] };
+  const details = { people: [{ character: 0, name: 'P05', loads: [{ joint: 1, channel: 'bend', reason: '' }] }],
+    class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] };
   assert.deepEqual(rowsOf(one, joints, details).map(({ label, channel }) => [label, channel]), [['Neck', 'bend']]);
   assert.deepEqual(rowsOf(two, joints, details).map(({ label }) => label), ['P05: Neck', 'Person 4: Neck']);
   assert.equal(new Set(rowsOf(two, joints, details).map(({ key }) => key)).size, 2);

@@ -13,7 +13,7 @@ const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, pe
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }],
   recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null },
-  marks_revision: 7, surroundings: 3, class_limits: [0.3, 0.6] };
+  marks_revision: 7, surroundings: 3, class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] };
 const palette = {
   classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: [rgb, rgb, rgb],

@@ -115,6 +115,8 @@ TEST(Changes, ReachThePersonAndTheLimitsWithTheNextSamples) {
   wired.changes.Put({0.05, 0.1});
   const SceneState& scene = wired.RunOneSecond({0, 1});
   EXPECT_EQ(scene.class_limits, (std::array<double, 2>{0.05, 0.1}));
+  EXPECT_LT(scene.class_falls_below[1], 0.1);
+  EXPECT_GT(scene.class_falls_below[1], 0.05);
   EXPECT_EQ(scene.people[0].model->description.mass_kg, 75);
   EXPECT_TRUE(scene.people[0].model->description.mass_is_assumed);
   const PersonState& ann = scene.people[1];
