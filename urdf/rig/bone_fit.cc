@@ -163,6 +163,13 @@ constexpr std::array<std::pair<int, int>, 8> kLimbBones = {
      {urdf::kLeftUpperLeg, urdf::kLeftLowerLeg},
      {urdf::kLeftLowerLeg, urdf::kLeftFoot}}};
 
+// Those that a rig may lack.
+constexpr std::array<std::pair<int, int>, 4> kOptionalBones = {
+    {{urdf::kT8, urdf::kNeck},
+     {urdf::kNeck, urdf::kHead},
+     {urdf::kRightFoot, urdf::kRightToe},
+     {urdf::kLeftFoot, urdf::kLeftToe}}};
+
 template <class Joint>
 double LegsAndTrunk(const Joint& joint) {
   double length = 0;
@@ -175,14 +182,18 @@ double LegsAndTrunk(const Joint& joint) {
 
 void CheckLengths(const Rig& rig, const Bones& bones, double all) {
   constexpr double kLeast = 0.01;  // of legs and trunk
-  for (const auto& [from, to] : kLimbBones) {
-    const double length = (JointOf(rig, bones, to) - JointOf(rig, bones, from)).norm();
-    if (length >= kLeast * all) continue;
+  const auto check = [&](int from, int to) {
+    const bool has_both = bones.node_of[At(from)] >= 0 && bones.node_of[At(to)] >= 0;
+    if (!has_both || (JointOf(rig, bones, to) - JointOf(rig, bones, from)).norm() >= kLeast * all) {
+      return;
+    }
     throw std::runtime_error(
         fmt::format("its bones {} and {} are at the same place, so that there is no bone between "
                     "them: move one of them to its joint",
                     Named(rig, bones, from), Named(rig, bones, to)));
-  }
+  };
+  for (const auto& [from, to] : kLimbBones) check(from, to);
+  for (const auto& [from, to] : kOptionalBones) check(from, to);
 }
 
 // Metres of the reference body, body axes.

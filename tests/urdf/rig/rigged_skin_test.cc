@@ -2,6 +2,7 @@
 // skin is, and refused by name.
 #include "urdf/rig/rigged_skin.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -251,11 +252,20 @@ TEST(RiggedSkin, NamesTheMissingBones) {
 }
 
 TEST(RiggedSkin, NamesBonesOfNoLength) {
-  RigSample sample = Edited([](json& document, std::string&) {
-    document["nodes"][8]["translation"] = {0, 0, 0};
-  });
-  EXPECT_THAT(WhyRefused(RigGlb(sample)),
-              ::testing::HasSubstr("'mixamorig:LeftArm' and 'mixamorig:LeftForeArm' are at the"));
+  const auto why_refused = [](const std::string& bone) {
+    return WhyRefused(RigGlb(Edited([&](json& document, std::string&) {
+      for (json& node : document["nodes"]) {
+        if (node["name"] == "mixamorig:" + bone) node["translation"] = {0, 0, 0};
+      }
+    })));
+  };
+  for (const auto& [parent, bone] :
+       {std::pair("LeftArm", "LeftForeArm"), {"LeftFoot", "LeftToeBase"}, {"Spine2", "Neck"},
+        {"Neck", "Head"}}) {
+    EXPECT_THAT(why_refused(bone),
+                ::testing::HasSubstr(fmt::format("'mixamorig:{}' and 'mixamorig:{}' are at the",
+                                                 parent, bone)));
+  }
 }
 
 TEST(RiggedSkin, RefusesExchangedSidesAndTwoPeople) {
