@@ -6,6 +6,7 @@ import { theme } from './theme.js';
 
 const SIDE = 30;             // points
 const MARGIN = 0.45;         // m, around the limbs
+const FADING = 0.33;         // m, over which it ends
 const ABOVE_FLOOR = 0.002;   // m
 const COLORS = { light: new THREE.Vector3(0.20, 0.23, 0.30), dark: new THREE.Vector3() };  // sRGB
 
@@ -48,12 +49,21 @@ export class FloorShadow {
         uniform vec3 first;
         uniform vec2 size;
         out float shade;${openSky(count)}
+        // From the line within the nearest limb, seen from above, m.
+        float distanceFromLimbs(vec2 place) {
+          float least = 1e9;
+          for (int i = 0; i < ${count}; ++i) {
+            vec2 away = place - capsules[3 * i].xy, bone = capsules[3 * i + 1].xy;
+            vec2 beside = away - clamp(dot(away, bone) / max(dot(bone, bone), 1e-8), 0.0, 1.0) * bone;
+            least = min(least, dot(beside, beside));
+          }
+          return sqrt(least);
+        }
         void main() {
           vec3 place = first + vec3(position.xy * size, 0.0);
           float open = openSky(place, vec3(0.0, 0.0, 1.0), 0);
           // It ends before the grid does.
-          vec2 inside = min(vec2(1.0), min(position.xy, 1.0 - position.xy) * ${((SIDE - 1) / (0.25 * SIDE)).toFixed(4)});
-          float left = inside.x * inside.y;
+          float left = clamp((${MARGIN} - distanceFromLimbs(place.xy)) / ${FADING}, 0.0, 1.0);
           shade = max(0.0, 0.8 * (1.0 - open * open * open) * left * left - 0.01);
           gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
         }`,

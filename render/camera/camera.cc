@@ -25,7 +25,11 @@ constexpr double kSlack = 0.5;   // m, by which a group may draw together before
 struct Direction {
   Eigen::Vector3d to_camera;  // from the target
   Eigen::Vector3d up;
+  double vertical_fov_rad = Camera().vertical_fov_rad;
 };
+
+// From above the head is much nearer than the feet: with a short lens it would hide the body.
+constexpr double kFovFromAbove = 0.2;  // 11 degrees
 
 // Horizontal views look down by a few degrees, so that the floor reads as a floor.
 Direction Horizontal(double azimuth_deg, double elevation_deg) {
@@ -43,7 +47,7 @@ const std::vector<std::pair<std::string, Direction>>& Directions() {
       {"back", Horizontal(180, 6)},
       {"left", Horizontal(90, 6)},
       {"right", Horizontal(-90, 6)},
-      {"top", {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()}},
+      {"top", {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), kFovFromAbove}},
       {"iso", Horizontal(45, 35.264)},
       {"three_quarter", Horizontal(-38, 14)},
   };
@@ -103,6 +107,7 @@ Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
     Camera camera;
     camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
     camera.up = direction.up;
+    camera.vertical_fov_rad = direction.vertical_fov_rad;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.
     const double half_width = about.radius + kGroupFraming.margin_m;

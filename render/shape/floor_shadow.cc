@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace kinescope::render {
 namespace {
 
 constexpr float kMargin = 0.45f;       // m, around the limbs
+constexpr float kFading = 0.33f;       // m, over which it ends
 constexpr float kAboveFloor = 0.002f;  // m
 constexpr float kDarkest = 0.8f, kUnseen = 0.01f;
 // Where a function of a column, a + b * x, is not negative: narrows `from` to `to`.
@@ -39,6 +41,19 @@ void Blend(const std::array<float, FloorShadow::kRun>& shades, const std::array<
   }
 }
 
+// From the line within the nearest limb, seen from above, m.
+float DistanceFrom(const skin::Capsules& limbs, const Eigen::Vector3f& point) {
+  float least = std::numeric_limits<float>::infinity();  // squared
+  for (const skin::Capsule& limb : limbs) {
+    const Eigen::Vector2f bone = (limb.end - limb.start).head<2>();
+    const Eigen::Vector2f away = (point - limb.start).head<2>();
+    constexpr float kPoint = 1e-8f;  // m², of a bone that stands upright
+    const float along = std::clamp(away.dot(bone) / std::max(bone.squaredNorm(), kPoint), 0.0f, 1.0f);
+    least = std::min(least, (away - along * bone).squaredNorm());
+  }
+  return std::sqrt(least);
+}
+
 }  // namespace
 
 FloorShadow::FloorShadow()
@@ -63,19 +78,13 @@ void FloorShadow::Cast(const skin::Capsules& limbs) {
     }
   }
   skin::SetOpenSky(points_, limbs, shade_);
-  // It ends before the points do.
-  const auto fade = [](int i) {
-    const float inside = static_cast<float>(std::min(i, kSide - 1 - i)) / (0.25f * kSide);
-    return std::min(1.0f, inside);
-  };
-  at = 0;
-  for (int row = 0; row < kSide; ++row) {
-    for (int column = 0; column < kSide; ++column) {
-      // As if light came from the cloudy part of the sky only: it makes the shadow three times as
-      // deep.
-      const float open = shade_[at], left = fade(row) * fade(column);
-      shade_[at++] = std::max(0.0f, kDarkest * (1 - open * open * open) * left * left - kUnseen);
-    }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    // As if light came from the cloudy part of the sky only: it makes the shadow three times as
+    // deep. It ends before the points do.
+    const float open = shade_[i];
+    const float left =
+        std::clamp((kMargin - DistanceFrom(limbs, points_[i])) / kFading, 0.0f, 1.0f);
+    shade_[i] = std::max(0.0f, kDarkest * (1 - open * open * open) * left * left - kUnseen);
   }
   FindShade();
 }

@@ -64,10 +64,10 @@ std::string CameraController::HeadingNote(const SceneState& state) const {
   switch (urdf::HeadingOf(state.people.front().links).rule) {
     case urdf::HeadingRule::kUpright: break;
     case urdf::HeadingRule::kLyingOnSide:
-      return "the person lies on a side: the camera 'front' sees the face, from the side to which "
-             "it looks";
+      return "the person lies on a side: for named cameras the front is where the face looks";
     case urdf::HeadingRule::kLyingLevel:
-      return "the person lies on the back or the belly: the camera 'front' sees the left side";
+      return "the person lies on the back or the belly: for named cameras the front is the "
+             "person's left side";
     case urdf::HeadingRule::kUndefined:
       return "the person is upside down, so the heading is undefined: named cameras stay with the "
              "axes of the world";

@@ -22,6 +22,9 @@ void ListPeopleLook(options::OptionList& option, FigureValue& figure, StyleValue
          "where the classes of joint loads are shown: as spheres, as regions of the skin, or both");
   option.HasNoEffect("loads", "with --figure urdf",
                      [&figure] { return *figure == render::Figure::kUrdf; });
+  option.HasNoEffect("style", "with --figure urdf, whose parts have no lines", [&figure, &style] {
+    return *figure == render::Figure::kUrdf && *style == render::Style::kLine;
+  });
 }
 
 void PeopleLook::ApplyTo(render::SceneLook& look) const {

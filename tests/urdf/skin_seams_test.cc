@@ -189,8 +189,8 @@ std::map<std::string, urdf::JointAngles> Postures() {
 
 // How much more than the bind pose itself, whose lips and ears count, a posture may have. Both are
 // also folds as people have them: the most steps are in the groins of a crawling woman (0.27), the
-// creases in hollows of knees, too (1.2 of a sitting man).
-constexpr double kMoreSteps = 0.30, kMoreCreases = 1.3;
+// creases in hollows of knees, too (1.42 of a sitting man).
+constexpr double kMoreSteps = 0.30, kMoreCreases = 1.45;
 
 urdf::LinkPoses Posed(const urdf::JointAngles& angles) {
   return urdf::ForwardKinematics(urdf::DefaultSkeleton(), {}, angles);

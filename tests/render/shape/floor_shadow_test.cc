@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -51,6 +52,23 @@ TEST(FloorShadow, IsDarkestUnderThePersonAndEndsBesideThem) {
   EXPECT_LT(left(0.8, 0.25), 1);
   EXPECT_EQ(left(1.0, 0.25), 1);
   EXPECT_EQ(left(0.5, -0.3), 1);
+}
+
+TEST(FloorShadow, HasTheOutlineOfThePerson) {
+  FloorShadow shadow;
+  shadow.Cast(TrunkAt(0, 0));
+  const Camera camera = NamedCamera("top", SceneState());
+  Image image = Floor();
+  shadow.BlendInto(image, {0, 0, kWidth, kHeight}, camera, kShadowColor);
+  const auto level = [&](double x, double y) {
+    return static_cast<int>(image.rgba[PixelAt({x, y, 0.002}, camera)]);
+  };
+  for (const double radius : {0.15, 0.2, 0.25, 0.3}) {  // m
+    const double diagonal = radius / std::sqrt(2.0);
+    EXPECT_LT(level(radius, 0), Floor().rgba.front());
+    EXPECT_NEAR(level(radius, 0), level(diagonal, diagonal), 4) << radius;
+  }
+  EXPECT_EQ(level(0.4, 0.4), Floor().rgba.front());
 }
 
 TEST(FloorShadow, IsTheSameInTiles) {
