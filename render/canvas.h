@@ -37,6 +37,8 @@ class Canvas : public Painter {
   void Fill(double left, double top, double right, double bottom, const Ink& ink,
             Coverage&& coverage, const std::function<Columns(double y)>& whole = nullptr);
   struct Paint;
+  /// Pixels of this part, which may be beyond its edges, are to be blended.
+  void Mark(int x, int y, int width, int height);
   void Blend(int x, int y, const Paint& paint, double coverage);
   /// From `first_x` to `last_x`, both included.
   void BlendRow(int first_x, int last_x, int y, const Paint& paint, double coverage);

@@ -184,13 +184,14 @@ export class Feed {
    *  @returns {Promise<string>}  why a request was rejected; "" */
   async update(wanted, newest, now) {
     if (this.#isAsking || now < this.#next) return '';
-    const round = wanted.flatMap(({ series, from, to }) => {
+    const missing = wanted.flatMap(({ series, from, to }) => {
       series.forget(from);
-      const span = (this.#retryAt.get(series) ?? -Infinity) <= now ? series.missing(from, to, newest) : null;
+      const span = series.missing(from, to, newest);
       return span === null ? [] : [{ series, span }];
     });
-    this.isComplete = round.length === 0;
-    if (this.isComplete) return '';
+    this.isComplete = missing.length === 0;
+    const round = missing.filter(({ series }) => (this.#retryAt.get(series) ?? -Infinity) <= now);
+    if (round.length === 0) return '';
     this.#isAsking = true;
     this.#next = now + Math.max(REST_MILLIS, REST_MILLIS_EACH * round.length);
     const reasons = await Promise.all(round.map(({ series, span }) => this.#load(series, span, newest, now)));

@@ -112,6 +112,7 @@ test('after a rejection the feed says why and waits', async () => {
   assert.equal(await feed.update(wanted, 1_000_000, 0), 'person=3: no samples are kept');
   await feed.update(wanted, 2_000_000, 1000);
   assert.equal(count, 1);
+  assert.ok(!feed.isComplete, 'what was rejected is missing while it waits');
   await feed.update(wanted, 5_000_000, 3500);
   assert.equal(count, 2);
 });
