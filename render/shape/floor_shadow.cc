@@ -48,7 +48,8 @@ float DistanceFrom(const skin::Capsules& limbs, const Eigen::Vector3f& point) {
     const Eigen::Vector2f bone = (limb.end - limb.start).head<2>();
     const Eigen::Vector2f away = (point - limb.start).head<2>();
     constexpr float kPoint = 1e-8f;  // m², of a bone that stands upright
-    const float along = std::clamp(away.dot(bone) / std::max(bone.squaredNorm(), kPoint), 0.0f, 1.0f);
+    const float along =
+        std::clamp(away.dot(bone) / std::max(bone.squaredNorm(), kPoint), 0.0f, 1.0f);
     least = std::min(least, (away - along * bone).squaredNorm());
   }
   return std::sqrt(least);

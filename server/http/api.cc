@@ -412,18 +412,19 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
   }
   // Those of a former moment are not known.
   const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;
-  return Text({{"details",
-                {{"source", state != nullptr ? state->source : std::string()},
-                 {"camera", live_camera},
-                 {"has_pictures", has_pictures},
-                 {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
-                 {"class_falls_below", (state != nullptr ? *state : SceneState()).class_falls_below},
-                 {"people", std::move(people)},
-                 {"objects", std::move(objects)},
-                 {"left_out", std::move(left_out)},
-                 {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
-                 {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
-                 {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
+  return Text(
+      {{"details",
+        {{"source", state != nullptr ? state->source : std::string()},
+         {"camera", live_camera},
+         {"has_pictures", has_pictures},
+         {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
+         {"class_falls_below", (state != nullptr ? *state : SceneState()).class_falls_below},
+         {"people", std::move(people)},
+         {"objects", std::move(objects)},
+         {"left_out", std::move(left_out)},
+         {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
+         {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
+         {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,

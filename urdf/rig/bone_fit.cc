@@ -164,11 +164,10 @@ constexpr std::array<std::pair<int, int>, 8> kLimbBones = {
      {urdf::kLeftLowerLeg, urdf::kLeftFoot}}};
 
 // Those that a rig may lack.
-constexpr std::array<std::pair<int, int>, 4> kOptionalBones = {
-    {{urdf::kT8, urdf::kNeck},
-     {urdf::kNeck, urdf::kHead},
-     {urdf::kRightFoot, urdf::kRightToe},
-     {urdf::kLeftFoot, urdf::kLeftToe}}};
+constexpr std::array<std::pair<int, int>, 4> kOptionalBones = {{{urdf::kT8, urdf::kNeck},
+                                                                {urdf::kNeck, urdf::kHead},
+                                                                {urdf::kRightFoot, urdf::kRightToe},
+                                                                {urdf::kLeftFoot, urdf::kLeftToe}}};
 
 template <class Joint>
 double LegsAndTrunk(const Joint& joint) {

@@ -259,12 +259,13 @@ TEST(RiggedSkin, NamesBonesOfNoLength) {
       }
     })));
   };
-  for (const auto& [parent, bone] :
-       {std::pair("LeftArm", "LeftForeArm"), {"LeftFoot", "LeftToeBase"}, {"Spine2", "Neck"},
-        {"Neck", "Head"}}) {
+  for (const auto& [parent, bone] : {std::pair("LeftArm", "LeftForeArm"),
+                                     {"LeftFoot", "LeftToeBase"},
+                                     {"Spine2", "Neck"},
+                                     {"Neck", "Head"}}) {
     EXPECT_THAT(why_refused(bone),
-                ::testing::HasSubstr(fmt::format("'mixamorig:{}' and 'mixamorig:{}' are at the",
-                                                 parent, bone)));
+                ::testing::HasSubstr(
+                    fmt::format("'mixamorig:{}' and 'mixamorig:{}' are at the", parent, bone)));
   }
 }
 
