@@ -484,7 +484,7 @@ function showSettled(now) {
 /** @param {import('./status.js').Status} status
  *  @param {number} now */
 function showStatus(status, now) {
-  const banner = (now < notice.until && notice.text) || status.banner || stream.clockText || leftOutText(shown.newestDetails.left_out)
+  const banner = (now < notice.until && notice.text) || status.banner || stream.clockStepsText || leftOutText(shown.newestDetails.left_out)
     || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);

@@ -137,7 +137,7 @@ export function streamRows(stream, ageMillis, serverNow) {
 
 /** @param {StreamEvents|undefined} steps  of the server's clock
  *  @returns {string} what the banner says for ten seconds; '' */
-export const clockText = (steps) => (steps !== undefined && steps.count_10s > 0
+export const clockStepsText = (steps) => (steps !== undefined && steps.count_10s > 0
   ? 'The clock of the server was set: samples and marks have the new time of day from now on' : '');
 
 /** @param {number} millis */

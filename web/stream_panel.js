@@ -1,5 +1,5 @@
 // The panel "Stream": one line always, and a table when it is opened.
-import { clockText, LossAlarm, streamLine, streamRows } from './stream_health.js';
+import { clockStepsText, LossAlarm, streamLine, streamRows } from './stream_health.js';
 
 /** @typedef {import('./messages.js').StreamHealth} StreamHealth
  *  @typedef {{details: HTMLDetailsElement, line: HTMLElement, rows: HTMLTableSectionElement}} Parts */
@@ -23,8 +23,8 @@ export class StreamPanel {
   }
 
   /** For the banner: the time of day was another one a moment ago; ''. */
-  get clockText() {
-    return clockText(this.#stream?.clock_steps);
+  get clockStepsText() {
+    return clockStepsText(this.#stream?.clock_steps);
   }
 
   /** @param {StreamHealth} stream */

@@ -128,7 +128,7 @@ test('a mark of a moment that is gone, or that has not come, is refused in words
   await close();
 });
 
-test('with ten thousand marks the page stays as small and as quick as before', async () => {
+test('with ten thousand marks the page lists the last 200, says how many are earlier, and goes on', async () => {
   let newest = 0;  // moment of the last real mark, µs
   const { page, problems, close } = await open(site.url, { beforeLoad: (fresh) => fresh.route('**/api/v1/marks?after=*', async (route) => {
     const answer = await (await route.fetch()).json(), after = Number(new URL(route.request().url()).searchParams.get('after'));
