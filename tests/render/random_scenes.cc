@@ -2,7 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "core/system/errors.h"
+#include "render/legend_place.h"
+#include "render/load_curves.h"
+#include "render/overlay_parts.h"
 #include "tests/render/test_scene.h"
 #include "tests/worn.h"
 #include "urdf/robot/robot_kinematics.h"
@@ -78,6 +84,7 @@ RandomScenes::View RandomScenes::NextView(int largest_px) {
     for (int i = 2 + Below(3); i > 0; --i) view.spec.panes.push_back({"view", RandomCamera()});
     view.spec.pane_columns = 2;
   }
+  if (view.spec.overlays) AddOverlays(view.spec);
   return view;
 }
 
@@ -136,6 +143,34 @@ std::shared_ptr<const SceneMarker> RandomScenes::Marker(int id) {
   return std::make_shared<const SceneMarker>(marker);
 }
 
+void RandomScenes::AddOverlays(render::PictureSpec& spec) {
+  for (const render::OverlayInfo& overlay : render::kOverlays) {
+    spec.parts.*overlay.part = Chance(0.6);
+  }
+  if (Chance(0.5)) spec.title = std::string(static_cast<std::size_t>(Below(60)), 'T') + " title";
+  for (int i = Below(3); i > 0; --i) spec.marks.push_back("marked");
+  if (Chance(0.3)) spec.print.width_mm = Uniform(40, 200);
+  auto loads = std::make_shared<render::LoadCurves>();
+  loads->to_secs = 4;
+  for (int i = 1 + Below(3); i > 0; --i) {
+    render::LoadCurve curve{"Right elbow", {}};
+    for (double secs = 0; secs < loads->to_secs; secs += 0.1) {
+      curve.points.push_back({secs, Chance(0.1) ? std::nan("") : Uniform(0, 1.2), LoadClass::kLow});
+    }
+    loads->curves.push_back(std::move(curve));
+  }
+  spec.load_curves = std::move(loads);
+  spec.plot_secs = Uniform(0, 4);
+  if (Chance(0.6)) return;
+  const render::PictureSpec inside = spec;
+  spec.legend = Chance(0.5) ? render::LegendPlace::kBelow : render::LegendPlace::kOutside;
+  try {
+    render::PlaceLegend(spec, render::LegendOf(MixedScene(Posture::kStanding), spec.look));
+  } catch (const UsageError&) {  // no room
+    spec = inside;
+  }
+}
+
 RobotState RandomScenes::Robot() {
   RobotState robot;
   robot.name = "arm";
@@ -174,6 +209,8 @@ SceneState RandomScenes::NextState(render::SceneLook& look) {
   SceneState state;
   state.liveness = Chance(0.2) ? Liveness::kStale : Liveness::kLive;
   state.people = people_;
+  state.counter = static_cast<std::uint32_t>(Below(100'000));
+  state.time_code_millis = Below(86'400'000);
   state.markers = markers_;
   if (Chance(0.3)) state.robots.push_back(Robot());
   if (Chance(0.3)) {

@@ -31,6 +31,7 @@ class RandomScenes {
   bool Chance(double share);
   int Below(int count);
   Eigen::Vector3d Place();
+  void AddOverlays(render::PictureSpec& spec);
   render::Camera RandomCamera();
   PersonState Person(int character);
   std::shared_ptr<const SceneMarker> Marker(int id);
