@@ -49,7 +49,13 @@ Camera Between(const Camera& from, const Camera& to, double t) {
   Camera camera = from;
   camera.target = (1 - t) * from.target + t * to.target;
   const Eigen::Vector3d a = from.position - from.target, b = to.position - to.target;
-  const double distance = MixScale(a.norm(), b.norm(), t);
+  camera.vertical_fov_rad = Mix(from.vertical_fov_rad, to.vertical_fov_rad, t);
+  double distance = MixScale(a.norm(), b.norm(), t);
+  if (from.vertical_fov_rad != to.vertical_fov_rad && !from.is_orthographic() &&
+      !to.is_orthographic()) {  // what is at the target does not shrink on the way
+    distance = 0.5 * MixScale(ShownHeight(from), ShownHeight(to), t) /
+               std::tan(0.5 * camera.vertical_fov_rad);
+  }
   if (IsLevel(from) && IsLevel(to)) {
     const Bearing first = BearingOf(a), last = BearingOf(b);
     const double turn = std::remainder(last.azimuth - first.azimuth, 2 * M_PI);  // the shorter way
@@ -63,7 +69,6 @@ Camera Between(const Camera& from, const Camera& to, double t) {
     camera.position = camera.target + distance * (turned * Eigen::Vector3d::UnitZ());
     camera.up = turned * Eigen::Vector3d::UnitY();
   }
-  camera.vertical_fov_rad = Mix(from.vertical_fov_rad, to.vertical_fov_rad, t);
   camera.near_m = std::min(from.near_m, to.near_m);
   camera.far_m = std::max(from.far_m, to.far_m);
   if (from.is_orthographic() && to.is_orthographic()) {
