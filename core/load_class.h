@@ -21,6 +21,8 @@ inline constexpr std::array<LoadClass, kLoadClassCount> kLoadClassesOfTables = {
 /// Ratios of capacity. While the ratio rises, a load above the first is medium, above the second
 /// high.
 inline constexpr std::array<double, 2> kDefaultClassLimits = {0.30, 0.60};
+/// While it falls, a load keeps its class until it is below these.
+inline constexpr std::array<double, 2> kDefaultClassFallsBelow = {0.25, 0.55};
 
 /// "unknown", "low", "medium", "high".
 const char* Name(LoadClass load_class);

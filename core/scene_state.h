@@ -172,7 +172,7 @@ struct SceneState {
   double rate_hz = 0;  // samples per second over the last second (file: nominal)
   std::array<double, 2> class_limits = kDefaultClassLimits;
   /// Below which a load of class medium and high falls back, where it once was above the limit.
-  std::array<double, 2> class_falls_below = {0.25, 0.55};
+  std::array<double, 2> class_falls_below = kDefaultClassFallsBelow;
   double floor_z = 0;  // height of the ground, world, m
   /// By which the named cameras of live pictures and of the page are turned about z, rad; 0 in
   /// scenes of files. Their "front" looks from there.

@@ -50,12 +50,9 @@ Camera Between(const Camera& from, const Camera& to, double t) {
   camera.target = (1 - t) * from.target + t * to.target;
   const Eigen::Vector3d a = from.position - from.target, b = to.position - to.target;
   camera.vertical_fov_rad = Mix(from.vertical_fov_rad, to.vertical_fov_rad, t);
-  double distance = MixScale(a.norm(), b.norm(), t);
-  if (from.vertical_fov_rad != to.vertical_fov_rad && !from.is_orthographic() &&
-      !to.is_orthographic()) {  // what is at the target does not shrink on the way
-    distance = 0.5 * MixScale(ShownHeight(from), ShownHeight(to), t) /
-               std::tan(0.5 * camera.vertical_fov_rad);
-  }
+  const auto slope = [](const Camera& of) { return std::tan(0.5 * of.vertical_fov_rad); };
+  // By the heights that are shown: what is at the target does not shrink while the lens changes.
+  const double distance = MixScale(slope(from) * a.norm(), slope(to) * b.norm(), t) / slope(camera);
   if (IsLevel(from) && IsLevel(to)) {
     const Bearing first = BearingOf(a), last = BearingOf(b);
     const double turn = std::remainder(last.azimuth - first.azimuth, 2 * M_PI);  // the shorter way

@@ -241,6 +241,11 @@ json TrailsToJson(const std::vector<PageTrail>& trails) {
   return list;
 }
 
+const SceneState& OrEmpty(const SceneState* state) {
+  static const SceneState kEmpty;
+  return state != nullptr ? *state : kEmpty;
+}
+
 }  // namespace
 
 namespace {
@@ -310,7 +315,7 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
   }
   return Text({{"people", std::move(people)},
                {"joints", std::move(joints)},
-               {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
+               {"class_limits", OrEmpty(state).class_limits},
                {"compression_limits_n", kCompressionLimits},
                {"look",
                 {{"loads", look.loads},
@@ -412,19 +417,18 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
   }
   // Those of a former moment are not known.
   const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;
-  return Text(
-      {{"details",
-        {{"source", state != nullptr ? state->source : std::string()},
-         {"camera", live_camera},
-         {"has_pictures", has_pictures},
-         {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
-         {"class_falls_below", (state != nullptr ? *state : SceneState()).class_falls_below},
-         {"people", std::move(people)},
-         {"objects", std::move(objects)},
-         {"left_out", std::move(left_out)},
-         {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
-         {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
-         {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
+  return Text({{"details",
+                {{"source", state != nullptr ? state->source : std::string()},
+                 {"camera", live_camera},
+                 {"has_pictures", has_pictures},
+                 {"class_limits", OrEmpty(state).class_limits},
+                 {"class_falls_below", OrEmpty(state).class_falls_below},
+                 {"people", std::move(people)},
+                 {"objects", std::move(objects)},
+                 {"left_out", std::move(left_out)},
+                 {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
+                 {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
+                 {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,

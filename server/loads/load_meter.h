@@ -18,7 +18,7 @@ class LoadMeter {
   /// high.
   struct Settings {
     std::array<double, 2> up = kDefaultClassLimits;
-    std::array<double, 2> down = {0.25, 0.55};
+    std::array<double, 2> down = kDefaultClassFallsBelow;
     bool is_momentary = false;  // shows each sample as it is: no times, no hysteresis
     double rise_secs = 0.03;    // time constant
     double hold_secs = 0.3;
