@@ -2,11 +2,13 @@
 """Checks that every header includes what it needs: it compiles on its own, and it includes the standard header
 of each std:: name in it, instead of relying on another header.
 
-tests/headers_test.py BUILD_FOLDER [--jobs N] [--tests] [--only PART_OF_A_PATH]
+tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests] [--only PART_OF_A_PATH]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
-  definitions of each folder; generated headers (ROS messages) must exist. --tests: also compiles the
-  headers of tests/, which is slow because of GoogleTest. Exit code 1 if an include is missing; one line per
-  finding: header, line, problem.
+  definitions of each folder; generated headers (ROS messages) must exist. Compiles the headers that differ
+  from COMMIT or include, directly or not, one that does. Default of COMMIT: the commit where this branch left
+  origin/main, or the last commit but one if it has not left origin/main. --all: compiles all, which takes
+  eight CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
+  Exit code 1 if an include is missing; one line per finding: header, line, problem.
 """
 import argparse
 import concurrent.futures
@@ -16,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 
+from changes import base_commit, is_commit, names_changed_since
 from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 
 FOLDERS = ("urdf", "core", "server", "render")
@@ -212,8 +215,11 @@ def compile_alone(name, flags, begin):
     return [f"{where}: on its own: {what}" + ("" if where.startswith(name) else f" (in {name})")]
 
 
-def compile_all(names, flags, jobs):
-    closures = Closures()
+def affected_by(changed, names, closures):
+    return [name for name in names if name in changed or changed & closures[name]]
+
+
+def compile_all(names, closures, flags, jobs):
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         hubs = Precompiled(names, closures, flags, pathlib.Path(folder))
         results = pool.map(
@@ -224,6 +230,8 @@ def compile_all(names, flags, jobs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--since", metavar="COMMIT", default=base_commit())
+    parser.add_argument("--all", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--tests", action="store_true")
     parser.add_argument("--only", default="")
@@ -235,7 +243,12 @@ def main():
     findings = [finding for name in headers
                 for finding in missing_by_text(name, (TOP / name).read_text())]
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
-    findings += compile_all(alone, read_flags(options.build.resolve()), options.jobs)
+    closures = Closures()
+    if not options.all and options.since is not None:
+        if not is_commit(options.since):
+            parser.error(f"--since={options.since}: unknown commit")
+        alone = affected_by(names_changed_since(options.since), alone, closures)
+    findings += compile_all(alone, closures, read_flags(options.build.resolve()), options.jobs)
     print(f"{len(headers)} headers, {len(alone)} of them compiled on their own, {len(findings)} findings, "
           f"{cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
     return 1 if findings or not headers else 0

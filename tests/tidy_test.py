@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 
+from changes import base_commit, is_commit, names_changed_since
 from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
 
 FOLDERS = ("urdf", "core", "server", "render")
@@ -24,25 +25,10 @@ MOST_ALONE = 60  # files; each is several seconds, mostly of reading headers
 NOT_CHECKED = {"urdf/skin/make/make_skin.cc"}  # clang-tidy reads CGAL's templates for many minutes
 
 
-def git(*words):
-    result = subprocess.run(["git", *words], capture_output=True, text=True, cwd=TOP)
-    return result.stdout.split("\0" if "-z" in words else None) if result.returncode == 0 else None
-
-
-def base_commit():
-    """None if there is no history."""
-    head = git("rev-parse", "HEAD")
-    left = git("merge-base", "HEAD", "origin/main")
-    return (left if left and left != head else git("rev-parse", "HEAD~1") or [None])[0]
-
-
 def changed_since(commit):
     """Sources and headers; a header whose source has changed too is checked through that source."""
-    names = {name for words in (("diff", "--name-only", "--diff-filter=d", "-z", commit),
-                                ("ls-files", "--others", "--exclude-standard", "-z"))
-             for name in git(*words) or []}
-    files = [pathlib.PurePosixPath(name) for name in sorted(names - NOT_CHECKED) if name.startswith(
-        tuple(f"{folder}/" for folder in FOLDERS))]
+    files = [pathlib.PurePosixPath(name) for name in sorted(names_changed_since(commit) - NOT_CHECKED)
+             if name.startswith(tuple(f"{folder}/" for folder in FOLDERS))]
     sources = [file for file in files if file.suffix == ".cc"]
     return sources + [file for file in files
                       if file.suffix == ".h" and file.with_suffix(".cc") not in sources]
@@ -88,7 +74,7 @@ def main():
     if not options.all and options.since is None:
         print("no history: no file checked; check all files with tests/tidy_test.py --all")
         return 0
-    if not options.all and git("rev-parse", "--verify", f"{options.since}^{{commit}}") is None:
+    if not options.all and not is_commit(options.since):
         parser.error(f"--since={options.since}: unknown commit")
     if options.all:
         commands = commands_for_batches(build)

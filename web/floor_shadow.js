@@ -1,16 +1,16 @@
 // The soft shadow of a person on the floor, where limbs hide it from the sky, as in pictures of the server
 // (render/shape/floor_shadow.cc): a grid of points around the limbs. World frame: z up, metres.
 import * as THREE from 'three';
-import { capsuleEnds, openSky } from './skin_limbs.js';
+import { capsuleEnds, CAPSULE_FLOATS } from './skin_limbs.js';
 import { theme } from './theme.js';
 
 const SIDE = 30;             // points
 const MARGIN = 0.45;         // m, around the limbs
 const FADING = 0.33;         // m, over which it ends
 const ABOVE_FLOOR = 0.002;   // m
+const DARKEST = 0.8, UNSEEN = 0.01;
+const NOTHING = 1e-8;       // m²
 const COLORS = { light: new THREE.Vector3(0.20, 0.23, 0.30), dark: new THREE.Vector3() };  // sRGB
-
-const grid = gridGeometry();
 
 /** Where a grid around the limbs begins, and its size, m.
  *  @param {Float32Array} capsules */
@@ -28,50 +28,60 @@ export function extentOf(capsules) {
   };
 }
 
+/** How dark each point of a grid is, row by row.
+ *  @param {Float32Array} capsules
+ *  @param {{first: number[], size: number[]}} extent  of the grid
+ *  @param {number} height  of the grid, m
+ *  @param {Float32Array} shades  are set; SIDE² */
+export function setShades(capsules, { first, size }, height, shades) {
+  for (let at = 0; at < SIDE * SIDE; ++at) {
+    const x = first[0] + size[0] * (at % SIDE) / (SIDE - 1), y = first[1] + size[1] * Math.floor(at / SIDE) / (SIDE - 1);
+    let open = 1, least = Infinity;  // share of the sky; from the line within the nearest limb, seen from above, m²
+    for (let i = 0; i < capsules.length; i += CAPSULE_FLOATS) {
+      const awayX = x - capsules[i], awayY = y - capsules[i + 1], awayZ = height - capsules[i + 2];
+      const boneX = capsules[i + 4], boneY = capsules[i + 5], boneZ = capsules[i + 6];
+      const along = within01(awayX * capsules[i + 8] + awayY * capsules[i + 9] + awayZ * capsules[i + 10]);
+      const toX = along * boneX - awayX, toY = along * boneY - awayY, up = along * boneZ - awayZ;
+      const square = Math.max(toX * toX + toY * toY + up * up, NOTHING), radius = capsules[i + 3] + along * capsules[i + 7];
+      open *= 1 - 0.8 * Math.max(up, 0) / Math.sqrt(square) * Math.min(radius * radius / square, 1);
+      const beside = within01((awayX * boneX + awayY * boneY) / Math.max(boneX * boneX + boneY * boneY, NOTHING));
+      least = Math.min(least, (awayX - beside * boneX) ** 2 + (awayY - beside * boneY) ** 2);
+    }
+    // As if light came from the cloudy part of the sky only. It ends before the grid does.
+    const left = within01((MARGIN - Math.sqrt(least)) / FADING);
+    shades[at] = Math.max(0, DARKEST * (1 - open ** 3) * left * left - UNSEEN);
+  }
+}
+
 export class FloorShadow {
   #first = new THREE.Vector3();
   #size = new THREE.Vector2();
   #color = { value: COLORS.light };
   #capsules;
+  #shades = new Float32Array(SIDE * SIDE);
+  #attribute = new THREE.BufferAttribute(this.#shades, 1).setUsage(THREE.DynamicDrawUsage);
   mesh;
 
-  /** @param {Float32Array} capsules  the limbs; what they are when the shadow is drawn counts
-   *  @param {number} count  of limbs */
-  constructor(capsules, count) {
+  /** @param {Float32Array} capsules  the limbs; what they are at an update counts */
+  constructor(capsules) {
     this.#capsules = capsules;
-    this.mesh = new THREE.Mesh(grid, new THREE.ShaderMaterial({
+    this.mesh = new THREE.Mesh(gridGeometry().setAttribute('shade', this.#attribute), new THREE.ShaderMaterial({
       glslVersion: THREE.GLSL3, transparent: true, depthWrite: false,
-      uniforms: {
-        capsules: { value: capsules }, covers: { value: new Uint32Array(2 * count).fill(2 ** 32 - 1) },
-        first: { value: this.#first }, size: { value: this.#size }, color: this.#color,
-      },
+      uniforms: { first: { value: this.#first }, size: { value: this.#size }, color: this.#color },
       vertexShader: `
         uniform vec3 first;
         uniform vec2 size;
-        out float shade;${openSky(count)}
-        // From the line within the nearest limb, seen from above, m.
-        float distanceFromLimbs(vec2 place) {
-          float least = 1e9;
-          for (int i = 0; i < ${count}; ++i) {
-            vec2 away = place - capsules[3 * i].xy, bone = capsules[3 * i + 1].xy;
-            vec2 beside = away - clamp(dot(away, bone) / max(dot(bone, bone), 1e-8), 0.0, 1.0) * bone;
-            least = min(least, dot(beside, beside));
-          }
-          return sqrt(least);
-        }
+        in float shade;
+        out float dark;
         void main() {
-          vec3 place = first + vec3(position.xy * size, 0.0);
-          float open = openSky(place, vec3(0.0, 0.0, 1.0), 0);
-          // It ends before the grid does.
-          float left = clamp((${MARGIN} - distanceFromLimbs(place.xy)) / ${FADING}, 0.0, 1.0);
-          shade = max(0.0, 0.8 * (1.0 - open * open * open) * left * left - 0.01);
-          gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
+          dark = shade;
+          gl_Position = projectionMatrix * viewMatrix * vec4(first + vec3(position.xy * size, 0.0), 1.0);
         }`,
       fragmentShader: `
         uniform vec3 color;
-        in float shade;
+        in float dark;
         out vec4 pixel;
-        void main() { pixel = vec4(color, shade); }`,
+        void main() { pixel = vec4(color, dark); }`,
     }));
     this.mesh.frustumCulled = false;  // its vertices are placed in the shader
   }
@@ -79,16 +89,22 @@ export class FloorShadow {
   /** After the limbs have moved.
    *  @param {number} floor  its height, m */
   update(floor) {
-    const { first, size } = extentOf(this.#capsules);
-    this.#first.set(first[0], first[1], floor + ABOVE_FLOOR);
-    this.#size.set(size[0], size[1]);
+    const extent = extentOf(this.#capsules), height = floor + ABOVE_FLOOR;
+    this.#first.set(extent.first[0], extent.first[1], height);
+    this.#size.set(extent.size[0], extent.size[1]);
+    setShades(this.#capsules, extent, height, this.#shades);
+    this.#attribute.needsUpdate = true;
     this.#color.value = COLORS[theme?.name ?? 'light'];
   }
 
   dispose() {
+    this.mesh.geometry.dispose();
     this.mesh.material.dispose();
   }
 }
+
+/** @param {number} value */
+const within01 = (value) => Math.min(Math.max(value, 0), 1);
 
 /** Points from (0, 0) to (1, 1). */
 function gridGeometry() {

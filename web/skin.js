@@ -105,7 +105,7 @@ export class SkinnedBody {
     this.mesh.frustumCulled = false;  // its bounds move with the frames
     this.group.add(this.mesh);
     if (opacity === null) {
-      this.#shadow = new FloorShadow(this.#surface.capsules, skin.rig.limbs.length);
+      this.#shadow = new FloorShadow(this.#surface.capsules);
       this.group.add(this.#shadow.mesh);
     } else {
       this.#becomeVeil(skin, opacity);

@@ -40,8 +40,8 @@ export function coversOf(limbs) {
   return Uint32Array.from(limbs.flatMap(({ whole, joined }) => [bitsOf(whole), bitsOf(joined)]));
 }
 
-/** Floats of each capsule in the shader: start and its radius, bone and by how much the radius grows, bone / length². */
-const CAPSULE_FLOATS = 12;
+/** Floats of each capsule: start and its radius, bone and by how much the radius grows, bone / length². */
+export const CAPSULE_FLOATS = 12;
 
 /** @param {Limb[]} limbs */
 export const emptyCapsules = (limbs) => new Float32Array(CAPSULE_FLOATS * limbs.length);

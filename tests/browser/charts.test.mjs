@@ -230,7 +230,7 @@ test('the plots are saved as CSV and as a picture with person and trial', async 
   const png = await save('#plot-png');
   await saveFile('plots_saved.png', png.bytes);
   assert.match(png.name, /^kinescope_Demo_20\d\d-.*\.png$/);
-  const picture = await pixelsOfPng(page, png.bytes);
+  const picture = pixelsOfPng(png.bytes);
   assert.ok(picture.width > 380 && picture.height > 380, `${picture.width} x ${picture.height}`);
   const isDark = (r, g, b) => r < 60 && g < 60 && b < 70;
   assert.ok(countPixels({ data: picture.data.subarray(0, 4 * picture.width * 30) }, isDark) > 60, 'the person is named at the top');

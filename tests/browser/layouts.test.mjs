@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
 import { endAlarm, raiseAlarm, startWithAlarms } from './alarm_page.mjs';
-import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, pictureOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -107,7 +107,7 @@ async function digitHeights(page, selectors) {
         ...style });
       document.body.append(eight);
     }, font);
-    const { width, height, data } = await pixelsOfPng(page, await page.screenshot());
+    const { width, height, data } = pixelsOfPng(await pictureOf(page));
     await page.evaluate(() => document.getElementById('eight').remove());
     const isDark = (y) => data.subarray(4 * y * width, 4 * (y * width + 400)).some((value, i) => i % 4 === 0 && value < 128);
     const rows = Array.from({ length: height }, (_, y) => y).filter(isDark);

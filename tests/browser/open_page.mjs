@@ -9,6 +9,7 @@ import { existsSync } from 'node:fs';
 import { mkdir, writeFile } from 'node:fs/promises';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
+import { PNG } from 'pngjs';
 
 export const DESKTOP = { width: 1440, height: 900 };
 export const PHONE = { width: 390, height: 844 };
@@ -157,7 +158,7 @@ export const besidesOutage = (problems) => problems.filter(
   (line) => !/WebSocket|net::ERR_(CONNECTION_(REFUSED|RESET|CLOSED|ABORTED)|EMPTY_RESPONSE|SOCKET_NOT_CONNECTED)|^failed: /.test(line));
 
 /** Writes a picture of the page into out/browser of the build or the folder KINESCOPE_SCREENSHOTS. */
-export const saveScreenshot = async (page, name) => saveFile(`${name}.png`, await page.screenshot());
+export const saveScreenshot = async (page, name) => saveFile(`${name}.png`, await pictureOf(page));
 
 /** Into the same folder.
  *  @param {string} name
@@ -169,28 +170,33 @@ export async function saveFile(name, bytes) {
   await writeFile(`${folder}/${name}`, bytes);
 }
 
-/** What is drawn in `selector`, as pixels: {width, height, data} with RGBA bytes. Overlays that lie
- *  on it are on the picture too, as a person would see them.
+const sessions = new WeakMap();
+
+/** PNG of what is drawn in `selector`, or of the whole window. Overlays that lie on it are on the picture too, as a person
+ *  would see them. Asked of Chromium itself, since Playwright's waits for several pictures of a page take seconds while
+ *  that draws in software.
+ *  @param {any} page
+ *  @param {string|null} selector */
+export async function pictureOf(page, selector = null) {
+  if (!sessions.has(page)) sessions.set(page, await page.context().newCDPSession(page));
+  const clip = await page.evaluate((wanted) => {
+    const element = wanted === null ? null : document.querySelector(wanted);
+    element?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+    const box = element?.getBoundingClientRect() ?? { x: 0, y: 0, width: innerWidth, height: innerHeight };
+    const [left, top] = [Math.floor(box.x), Math.floor(box.y)];  // whole pixels
+    return { x: left + scrollX, y: top + scrollY, width: Math.ceil(box.x + box.width) - left, height: Math.ceil(box.y + box.height) - top };
+  }, selector);
+  const { data } = await sessions.get(page).send('Page.captureScreenshot', { format: 'png', optimizeForSpeed: true, clip: { ...clip, scale: 1 } });
+  return Buffer.from(data, 'base64');
+}
+
+/** The same as pixels: {width, height, data} with RGBA bytes.
  *  @param {any} page
  *  @param {string} selector */
-export const pixelsOf = async (page, selector) => pixelsOfPng(page, await page.locator(selector).screenshot());
+export const pixelsOf = async (page, selector) => pixelsOfPng(await pictureOf(page, selector));
 
-/** @param {any} page  decodes it
- *  @param {Buffer} png */
-export async function pixelsOfPng(page, png) {
-  const { width, height, base64 } = await page.evaluate(async (text) => {
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    const context = canvas.getContext('2d');
-    context.drawImage(bitmap, 0, 0);
-    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    let binary = '';
-    for (let i = 0; i < data.length; i += 8192) binary += String.fromCharCode(...data.subarray(i, i + 8192));
-    return { width: bitmap.width, height: bitmap.height, base64: btoa(binary) };
-  }, png.toString('base64'));
-  return { width, height, data: Buffer.from(base64, 'base64') };
-}
+/** @param {Buffer} png */
+export const pixelsOfPng = (png) => PNG.sync.read(png);
 
 /** How many pixels pass `test`.
  *  @param {{data: Uint8Array}} pixels

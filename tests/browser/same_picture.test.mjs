@@ -22,7 +22,7 @@ test('a former moment covers the same pixels on the page and in a picture', asyn
     { 'status-word': 'Recording 0:00.5' });
   await saveScreenshot(page, 'same_former');
   const state = await stateOf(page, START_MICROS + 1e6 * place + 1000), sameCamera = await cameraOf(page, 'front', size, state);
-  const draw = (hidden, more = []) => serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...more], place);
+  const draw = (hidden, more = []) => serverPixels(file, sameCamera, size, [...PLAIN, hidden, ...more], place);
   const rest = `shadows,${MARKS}`;
   const withLoads = mask(await draw(rest), await draw(rest.replace('loads,', '')));
   const both = mask(await draw(rest, ghost), await draw(`body,${rest}`));
@@ -65,7 +65,7 @@ test('each mark has the size that it has in the picture', async () => {
   };
   const bare = await open(''), empty = await settled(bare.page), size = { width: empty.width, height: empty.height };
   const sameCamera = await cameraOf(bare.page, 'three_quarter', size);
-  const draw = (shown) => serverPixels(bare.page, file, sameCamera, size, [...PLAIN, hide(shown), ...person]);
+  const draw = (shown) => serverPixels(file, sameCamera, size, [...PLAIN, hide(shown), ...person]);
   const nothing = await draw('');
   for (const part of POINTS) {
     const visit = await open(part);
@@ -104,7 +104,7 @@ test('a robot and a reference pose cover the same pixels on the page and in the 
   const { page, covered, size, close } = await whatCovers(site, 'front', BESIDE, { 'status-word': 'Recording' });
   await saveScreenshot(page, 'same_beside');
   const sameCamera = await cameraOf(page, 'front', size), rest = `shadows,${MARKS}`;
-  const draw = (hidden, more) => serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...more]);
+  const draw = (hidden, more) => serverPixels(file, sameCamera, size, [...PLAIN, hidden, ...more]);
   const [all, alone, nothing] = [await draw(rest, options), await draw(rest, []), await draw(`body,${rest}`, [])];
   // In front of a person, a ghost of nearly the same grey cannot be told from it.
   const { share, either } = overlap(covered, mask(all, alone), mask(alone, nothing));
@@ -161,7 +161,7 @@ test('markers of another ROS node cover the same pixels on the page and in a sna
     await watcher.close();
     const { width, height } = shown.size;
     const png = await fetch(`${url}api/v1/snapshot.png?width=${width}&height=${height}`);
-    const pixels = await pixelsOfPng(shown.page, Buffer.from(await png.arrayBuffer()));
+    const pixels = pixelsOfPng(Buffer.from(await png.arrayBuffer()));
     await stopIt();
     return pixels;
   };
@@ -208,7 +208,7 @@ test('the path of a hand is drawn behind it, on the page and in a snapshot', asy
     // The third time of a picture: the hand has moved.
     for (let seen = 0; options.length > 0 && seen < 3;) if (paleBlue(await pixelsOf(page, '#view')) > 60) seen += 1;
     const snapshot = await fetch(`${site.url}api/v1/snapshot.png?theme=dark`);
-    const drawn = await pixelsOfPng(page, Buffer.from(await snapshot.arrayBuffer()));
+    const drawn = pixelsOfPng(Buffer.from(await snapshot.arrayBuffer()));
     counts.push([paleBlue(await pixelsOf(page, '#view')), paleBlue(drawn)]);
     await saveScreenshot(page, `same_trail_${options.length > 0}`);
     assert.deepEqual(problems, []);

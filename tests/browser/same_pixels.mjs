@@ -9,7 +9,7 @@ import { createInterface } from 'node:readline';
 import { after, before } from 'node:test';
 import { LiveCamera } from '../../web/live_camera.js';
 import { decodePast, decodeState, KIND } from '../../web/state_codec.js';
-import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng } from './open_page.mjs';
+import { closeBrowser, endWithTests, openPage, pictureOf, pixelsOfPng } from './open_page.mjs';
 
 export const LONG = { timeout: 60000 };  // only a failure takes so long
 const kinescope = process.env.KINESCOPE;
@@ -126,11 +126,11 @@ export async function cameraOf(page, name, { width, height }, state = null) {
 }
 
 /** What the server draws of the same sample from the same camera. */
-export async function serverPixels(page, file, camera, { width, height }, options, time = 0) {
+export async function serverPixels(file, camera, { width, height }, options, time = 0) {
   const out = join(folder, 'server.png');
   execFileSync(kinescope, ['render', file, '--time', `${time}`, ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
     { stdio: 'ignore' });
-  return pixelsOfPng(page, await readFile(out));
+  return pixelsOfPng(await readFile(out));
 }
 
 export const MARKS = 'loads,com,cop,support,forces,hand_loads';
@@ -138,11 +138,11 @@ export const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
 
 /** Until two pictures of the view in a row are equal: the camera has arrived and the skin is there. */
 export async function settled(page) {
-  const view = () => pixelsOf(page, '#view');
+  const view = () => pictureOf(page, '#view');
   let last = await view();
   for (;;) {
     const next = await view();
-    if (next.data.equals(last.data)) return next;
+    if (next.equals(last)) return pixelsOfPng(next);
     last = next;
   }
 }

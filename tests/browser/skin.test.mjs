@@ -25,7 +25,7 @@ for (const { motion, seconds, camera, person } of [
     const sameCamera = await cameraOf(page, camera, size);
     const drawn = [];
     for (const hidden of [REST, `${REST},body`, REST.replace('loads,', '')]) {
-      drawn.push(await serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...person]));
+      drawn.push(await serverPixels(file, sameCamera, size, [...PLAIN, hidden, ...person]));
     }
     const [body, nothing, withLoads] = drawn;
     const inPicture = mask(body, nothing);
@@ -39,15 +39,16 @@ for (const { motion, seconds, camera, person } of [
 }
 
 /** A live picture of the recording. */
-async function snapshotOf(file, page, camera, { width, height }) {
+async function snapshotOf(file, camera, { width, height }) {
   const live = await serve(file, ['--loop', '--picture_size', '64x64']);  // a stale picture has a banner
   const watcher = await openPage(live.url);
   // Before the first sample, a snapshot has no person.
   await watcher.page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
   await watcher.close();
-  const png = await fetch(`${live.url}api/v1/snapshot.png?camera=${camera}&width=${width}&height=${height}`);
+  const answer = await fetch(`${live.url}api/v1/snapshot.png?camera=${camera}&width=${width}&height=${height}`);
+  const png = Buffer.from(await answer.arrayBuffer());
   await live.stop();
-  return pixelsOfPng(page, Buffer.from(await png.arrayBuffer()));
+  return pixelsOfPng(png);
 }
 
 test('a person who faces -x is shown from the front, on the page and in a snapshot', async () => {
@@ -63,7 +64,7 @@ test('a person who faces -x is shown from the front, on the page and in a snapsh
   const same = overlap(onPage, expected.covered, nothing);
   assert.ok(same.either > 0.02 * onPage.length, `${same.either} pixels`);
   assert.ok(same.share >= 0.95, `${same.share.toFixed(4)} of the pixels on the page are those of a person who faces x`);
-  const [one, other] = [await snapshotOf(files[0], page, camera, size), await snapshotOf(files[1], page, camera, size)];
+  const [one, other] = [await snapshotOf(files[0], camera, size), await snapshotOf(files[1], camera, size)];
   const others = mask(one, other).reduce((sum, isOther) => sum + isOther, 0);
   assert.ok(others < 0.05 * same.either, `${others} pixels of a snapshot are not those of a person who faces x`);
   await close();
@@ -94,8 +95,8 @@ test('loads lie on the same pixels of the skin on the page and in the picture of
   const size = { width: shown.width, height: shown.height };
   await saveScreenshot(page, 'skin_loads');
   const options = ['--loads', 'skin', '--style', 'clay', ...PLAIN, REST.replace('loads,', '')];
-  const drawn = await serverPixels(page, file, await cameraOf(page, 'right', size), size, options);
-  const points = colourful(await serverPixels(page, file, await cameraOf(page, 'right', size), size,
+  const drawn = await serverPixels(file, await cameraOf(page, 'right', size), size, options);
+  const points = colourful(await serverPixels(file, await cameraOf(page, 'right', size), size,
     [...PLAIN, `${REST.replace('loads,', '')},loads,body`]));
   // Centre of mass and pressure are drawn on the page only.
   const isMark = (pixels) => pixels.data.reduce((marks, _, at) => {

@@ -247,7 +247,7 @@ TEST(ChildProcess, ReportsHowItEnded) {
   EXPECT_EQ(shell("kill -SEGV $$").signal, SIGSEGV);
   EXPECT_TRUE(shell("exec sleep 100", 50).was_too_slow);
   EXPECT_EQ(shell("head -c 3000000 /dev/zero; echo done >&2").err, "done\n");
-  EXPECT_THROW(RunChild({"/nowhere/program"}, kPatience), std::runtime_error);
+  EXPECT_THROW((void)RunChild({"/nowhere/program"}, kPatience), std::runtime_error);
 }
 
 }  // namespace

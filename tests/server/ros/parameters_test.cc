@@ -287,20 +287,20 @@ TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCo
 TEST_F(RosBridgeWithMaster, ReadsTheCommandLineWithoutAMaster) {
   EXPECT_EQ(PrivateParameter("tf"), "tree");
   EXPECT_EQ(PrivateParameter("never_set"), std::nullopt);
-  EXPECT_THROW(MakeRosBridge({}, RosMode::kRequired), UsageError);
+  EXPECT_THROW((void)MakeRosBridge({}, RosMode::kRequired), UsageError);
   EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
 }
 
 TEST_F(RosBridgeWithMaster, RejectsAnInvalidConfiguration) {
   BridgeConfig config;
   config.tf = "sideways";
-  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+  EXPECT_THROW((void)MakeRosBridge(config, RosMode::kAuto), UsageError);
   config = {};
   config.joint_states = "guessed";
-  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+  EXPECT_THROW((void)MakeRosBridge(config, RosMode::kAuto), UsageError);
   config = {};
   config.reference_frame = "/world";
-  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+  EXPECT_THROW((void)MakeRosBridge(config, RosMode::kAuto), UsageError);
 }
 
 }  // namespace
