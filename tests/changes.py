@@ -16,8 +16,14 @@ def base_commit():
     return (left if left and left != head else git("rev-parse", "HEAD~1") or [None])[0]
 
 
-def is_commit(name):
-    return git("rev-parse", "--verify", f"{name}^{{commit}}") is not None
+def parse_options(parser):
+    """Its options with --since and --all. `since` is a commit, or None if there is no history."""
+    parser.add_argument("--since", metavar="COMMIT", default=base_commit())
+    parser.add_argument("--all", action="store_true")
+    options = parser.parse_args()
+    if not options.all and options.since is not None and git("rev-parse", "--verify", f"{options.since}^{{commit}}") is None:
+        parser.error(f"--since={options.since}: unknown commit")
+    return options
 
 
 def names_changed_since(commit):

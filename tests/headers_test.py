@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from changes import base_commit, is_commit, names_changed_since
+from changes import names_changed_since, parse_options
 from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 
 FOLDERS = ("urdf", "core", "server", "render")
@@ -230,12 +230,10 @@ def compile_all(names, closures, flags, jobs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--since", metavar="COMMIT", default=base_commit())
-    parser.add_argument("--all", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--tests", action="store_true")
     parser.add_argument("--only", default="")
-    options = parser.parse_args()
+    options = parse_options(parser)
     folders = FOLDERS + ("tests",)
     headers = sorted(path.relative_to(TOP).as_posix() for folder in folders
                      for path in (TOP / folder).rglob("*.h") if "node_modules" not in path.parts)
@@ -245,8 +243,6 @@ def main():
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
     closures = Closures()
     if not options.all and options.since is not None:
-        if not is_commit(options.since):
-            parser.error(f"--since={options.since}: unknown commit")
         alone = affected_by(names_changed_since(options.since), alone, closures)
     findings += compile_all(alone, closures, read_flags(options.build.resolve()), options.jobs)
     print(f"{len(headers)} headers, {len(alone)} of them compiled on their own, {len(findings)} findings, "

@@ -17,7 +17,7 @@ import re
 import subprocess
 import sys
 
-from changes import base_commit, is_commit, names_changed_since
+from changes import names_changed_since, parse_options
 from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
 
 FOLDERS = ("urdf", "core", "server", "render")
@@ -66,16 +66,12 @@ def commands_for_batches(build, changed=None):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--since", metavar="COMMIT", default=base_commit())
-    parser.add_argument("--all", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
-    options = parser.parse_args()
+    options = parse_options(parser)
     build = options.build.resolve()
     if not options.all and options.since is None:
         print("no history: no file checked; check all files with tests/tidy_test.py --all")
         return 0
-    if not options.all and not is_commit(options.since):
-        parser.error(f"--since={options.since}: unknown commit")
     if options.all:
         commands = commands_for_batches(build)
     else:

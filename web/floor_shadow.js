@@ -1,15 +1,16 @@
 // The soft shadow of a person on the floor, where limbs hide it from the sky, as in pictures of the server
 // (render/shape/floor_shadow.cc): a grid of points around the limbs. World frame: z up, metres.
 import * as THREE from 'three';
-import { capsuleEnds, CAPSULE_FLOATS } from './skin_limbs.js';
+import { capsuleEnds, CAPSULE_FLOATS, openSkyOverFloor } from './skin_limbs.js';
 import { theme } from './theme.js';
 
-const SIDE = 30;             // points
+export const SIDE = 30;             // points
 const MARGIN = 0.45;         // m, around the limbs
 const FADING = 0.33;         // m, over which it ends
 const ABOVE_FLOOR = 0.002;   // m
 const DARKEST = 0.8, UNSEEN = 0.01;
-const NOTHING = 1e-8;       // m²
+const POINT = 1e-8;          // m², of a bone that stands upright
+const { clamp } = THREE.MathUtils;
 const COLORS = { light: new THREE.Vector3(0.20, 0.23, 0.30), dark: new THREE.Vector3() };  // sRGB
 
 /** Where a grid around the limbs begins, and its size, m.
@@ -28,6 +29,20 @@ export function extentOf(capsules) {
   };
 }
 
+/** From the line within the nearest limb, seen from above, m.
+ *  @param {Float32Array} capsules
+ *  @param {number} x
+ *  @param {number} y */
+function distanceFromLimbs(capsules, x, y) {
+  let least = Infinity;  // squared
+  for (let i = 0; i < capsules.length; i += CAPSULE_FLOATS) {
+    const awayX = x - capsules[i], awayY = y - capsules[i + 1], boneX = capsules[i + 4], boneY = capsules[i + 5];
+    const along = clamp((awayX * boneX + awayY * boneY) / Math.max(boneX * boneX + boneY * boneY, POINT), 0, 1);
+    least = Math.min(least, (awayX - along * boneX) ** 2 + (awayY - along * boneY) ** 2);
+  }
+  return Math.sqrt(least);
+}
+
 /** How dark each point of a grid is, row by row.
  *  @param {Float32Array} capsules
  *  @param {{first: number[], size: number[]}} extent  of the grid
@@ -36,19 +51,9 @@ export function extentOf(capsules) {
 export function setShades(capsules, { first, size }, height, shades) {
   for (let at = 0; at < SIDE * SIDE; ++at) {
     const x = first[0] + size[0] * (at % SIDE) / (SIDE - 1), y = first[1] + size[1] * Math.floor(at / SIDE) / (SIDE - 1);
-    let open = 1, least = Infinity;  // share of the sky; from the line within the nearest limb, seen from above, m²
-    for (let i = 0; i < capsules.length; i += CAPSULE_FLOATS) {
-      const awayX = x - capsules[i], awayY = y - capsules[i + 1], awayZ = height - capsules[i + 2];
-      const boneX = capsules[i + 4], boneY = capsules[i + 5], boneZ = capsules[i + 6];
-      const along = within01(awayX * capsules[i + 8] + awayY * capsules[i + 9] + awayZ * capsules[i + 10]);
-      const toX = along * boneX - awayX, toY = along * boneY - awayY, up = along * boneZ - awayZ;
-      const square = Math.max(toX * toX + toY * toY + up * up, NOTHING), radius = capsules[i + 3] + along * capsules[i + 7];
-      open *= 1 - 0.8 * Math.max(up, 0) / Math.sqrt(square) * Math.min(radius * radius / square, 1);
-      const beside = within01((awayX * boneX + awayY * boneY) / Math.max(boneX * boneX + boneY * boneY, NOTHING));
-      least = Math.min(least, (awayX - beside * boneX) ** 2 + (awayY - beside * boneY) ** 2);
-    }
     // As if light came from the cloudy part of the sky only. It ends before the grid does.
-    const left = within01((MARGIN - Math.sqrt(least)) / FADING);
+    const open = openSkyOverFloor(capsules, x, y, height);
+    const left = clamp((MARGIN - distanceFromLimbs(capsules, x, y)) / FADING, 0, 1);
     shades[at] = Math.max(0, DARKEST * (1 - open ** 3) * left * left - UNSEEN);
   }
 }
@@ -102,9 +107,6 @@ export class FloorShadow {
     this.mesh.material.dispose();
   }
 }
-
-/** @param {number} value */
-const within01 = (value) => Math.min(Math.max(value, 0), 1);
 
 /** Points from (0, 0) to (1, 1). */
 function gridGeometry() {

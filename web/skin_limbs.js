@@ -68,6 +68,28 @@ export function capsuleEnds(values) {
   return ends;
 }
 
+const STRENGTH = 0.8;  // of limbs that cover the sky
+const LEAST_SQUARE = 1e-8;  // m²
+const { clamp } = THREE.MathUtils;
+
+/** The share of the sky over a point of the floor that no limb covers: `openSky` for a normal that points up and limbs that
+ *  all cover it.
+ *  @param {Float32Array} values  of capsules
+ *  @param {number} x
+ *  @param {number} y
+ *  @param {number} z */
+export function openSkyOverFloor(values, x, y, z) {
+  let open = 1;
+  for (let i = 0; i < values.length; i += CAPSULE_FLOATS) {
+    const awayX = x - values[i], awayY = y - values[i + 1], awayZ = z - values[i + 2];
+    const along = clamp(awayX * values[i + 8] + awayY * values[i + 9] + awayZ * values[i + 10], 0, 1);
+    const toX = along * values[i + 4] - awayX, toY = along * values[i + 5] - awayY, up = along * values[i + 6] - awayZ;
+    const square = Math.max(toX * toX + toY * toY + up * up, LEAST_SQUARE), radius = values[i + 3] + along * values[i + 7];
+    open *= 1 - STRENGTH * Math.max(up, 0) / Math.sqrt(square) * Math.min(radius * radius / square, 1);
+  }
+  return open;
+}
+
 /** GLSL: the share of the sky over a vertex that no limb covers. All limbs are computed for all vertices: a software
  *  renderer would take longer to choose.
  *  @param {number} count  of limbs */
@@ -84,7 +106,7 @@ export const openSky = (count) => `
       vec3 toBone = along * bone.xyz - away;
       float inverse = inversesqrt(max(dot(toBone, toBone), 1e-8)), radius = start.w + along * bone.w;
       float size = radius * inverse;
-      float covered = 0.8 * max(dot(toBone, normal) * inverse, 0.0) * min(size * size, 1.0);
+      float covered = ${STRENGTH} * max(dot(toBone, normal) * inverse, 0.0) * min(size * size, 1.0);
       float joined = clamp(2.5 * (1.0 / size - 1.0), 0.0, 1.0);
       covered *= (by.x >> i & 1u) != 0u ? 1.0 : (by.y >> i & 1u) != 0u ? joined : 0.0;
       open *= 1.0 - covered;

@@ -13,7 +13,7 @@ list=$1 shares=$2
 # A session of its own: a task that it begins while it is stopped is not among those that it stops, but in its session.
 setsid parallel --quote --joblog "${list%.jsonl}.parallel.log" --term-seq TERM,10000,KILL,25 \
   kinescope batch "$list" "${@:3}" --shard "{}/$shares" < <(seq "$shares") &
-trap 'kill -TERM $!' TERM INT
+trap 'kill -TERM $!' TERM INT HUP
 until wait $!; [ $? -le 128 ] || ! kill -0 $! 2>/dev/null; do :; done
 pkill -TERM --session $! && pidwait --session $!
 

@@ -198,6 +198,18 @@ export const pixelsOf = async (page, selector) => pixelsOfPng(await pictureOf(pa
 /** @param {Buffer} png */
 export const pixelsOfPng = (png) => PNG.sync.read(png);
 
+/** Pixels of `selector` once two pictures in a row are equal: the camera has arrived and the skin is there.
+ *  @param {any} page
+ *  @param {string} selector */
+export async function settled(page, selector = '#view') {
+  let last = await pictureOf(page, selector);
+  for (;;) {
+    const next = await pictureOf(page, selector);
+    if (next.equals(last)) return pixelsOfPng(next);
+    last = next;
+  }
+}
+
 /** How many pixels pass `test`.
  *  @param {{data: Uint8Array}} pixels
  *  @param {(r: number, g: number, b: number) => boolean} test */

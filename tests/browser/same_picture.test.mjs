@@ -7,9 +7,9 @@ import { connect, createServer } from 'node:net';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
-import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot, settled } from './open_page.mjs';
 import {
-  cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, settled, stateOf, whatCovers,
+  cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, stateOf, whatCovers,
 } from './same_pixels.mjs';
 
 const test = (name, body) => nodeTest(name, { timeout: 300000 }, body);  // only a failure takes so long

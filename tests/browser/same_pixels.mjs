@@ -9,7 +9,7 @@ import { createInterface } from 'node:readline';
 import { after, before } from 'node:test';
 import { LiveCamera } from '../../web/live_camera.js';
 import { decodePast, decodeState, KIND } from '../../web/state_codec.js';
-import { closeBrowser, endWithTests, openPage, pictureOf, pixelsOfPng } from './open_page.mjs';
+import { closeBrowser, endWithTests, openPage, pixelsOfPng, settled } from './open_page.mjs';
 
 export const LONG = { timeout: 60000 };  // only a failure takes so long
 const kinescope = process.env.KINESCOPE;
@@ -135,17 +135,6 @@ export async function serverPixels(file, camera, { width, height }, options, tim
 
 export const MARKS = 'loads,com,cop,support,forces,hand_loads';
 export const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
-
-/** Until two pictures of the view in a row are equal: the camera has arrived and the skin is there. */
-export async function settled(page) {
-  const view = () => pictureOf(page, '#view');
-  let last = await view();
-  for (;;) {
-    const next = await view();
-    if (next.equals(last)) return pixelsOfPng(next);
-    last = next;
-  }
-}
 
 /** With the pixels beside them, two in each direction: the rims of spheres differ by that much on the page. */
 export function grown(covered, { width }) {

@@ -2,7 +2,7 @@
 // gone.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, openPage, PHONE, saveScreenshot, settled, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -172,15 +172,7 @@ test('a link shows another person the same moment, person, joints, camera, panel
   await two.page.waitForFunction(() => new URL(location.href).searchParams.has('camera'), null, LONG);
   assert.deepEqual(await what(two.page), await what(page));
   assert.equal((await what(two.page)).page.trim(), '#0f1318');
-  const settle = async ({ page: where }) => {
-    let last = await pixelsOf(where, '#view canvas');
-    for (;;) {
-      const next = await pixelsOf(where, '#view canvas');
-      if (next.data.equals(last.data)) return next;
-      last = next;
-    }
-  };
-  const [a, b] = [await settle(one), await settle(two)];
+  const [a, b] = [await settled(page, '#view canvas'), await settled(two.page, '#view canvas')];
   let differ = 0;
   for (let i = 0; i < a.data.length; i += 4) if (Math.abs(a.data[i] - b.data[i]) > 40) ++differ;
   await saveScreenshot(page, 'link_from');

@@ -1,8 +1,8 @@
 // The person on the page and in the server's pictures is the same surface: what the skin covers, pixel by pixel.
 import assert from 'node:assert/strict';
 import { test as nodeTest } from 'node:test';
-import { DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot } from './open_page.mjs';
-import { cameraOf, grown, LONG, MARKS, mask, moved, onlyView, overlap, PLAIN, record, serve, serverPixels, settled, whatCovers }
+import { DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot, settled } from './open_page.mjs';
+import { cameraOf, grown, LONG, MARKS, mask, moved, onlyView, overlap, PLAIN, record, serve, serverPixels, whatCovers }
   from './same_pixels.mjs';
 
 const REST = `${MARKS},shadows`;  // everything but the body

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { Matrix4 } from '../../../web/node_modules/three/build/three.module.js';
-import { extentOf, setShades } from '../../../web/floor_shadow.js';
+import { extentOf, setShades, SIDE } from '../../../web/floor_shadow.js';
 import { readSkin } from '../../../web/skin_buffer.js';
 import { emptyPlanes, foldsOfVertices, setPlanes } from '../../../web/skin_folds.js';
 import { framesOf } from '../../../web/skin_frames.js';
@@ -281,17 +281,17 @@ test('the shadow on the floor reaches 45 cm beyond the limbs', () => {
 test('the shadow is darkest under the person and ends before its grid does', () => {
   const { rig: { limbs } } = readSkin(buffers[0], 'skin');
   const { links } = told.skins[0].postures[0];
-  const capsules = emptyCapsules(limbs), shades = new Float32Array(900), side = 30;
+  const capsules = emptyCapsules(limbs), shades = new Float32Array(SIDE * SIDE);
   setCapsules(limbs, links, capsules);
   const extent = extentOf(capsules);
   const ends = capsulesOf(limbs, links).flatMap(({ start, end }) => [start, end]);
   setShades(capsules, extent, Math.min(...ends.map(({ z }) => z)) - 0.05, shades);
   const darkest = shades.indexOf(Math.max(...shades));
-  const place = [darkest % side, Math.floor(darkest / side)].map((at, axis) => extent.first[axis] + extent.size[axis] * at / (side - 1));
+  const place = [darkest % SIDE, Math.floor(darkest / SIDE)].map((at, axis) => extent.first[axis] + extent.size[axis] * at / (SIDE - 1));
   const near = Math.min(...ends.map(({ x, y }) => Math.hypot(x - place[0], y - place[1])));
   assert.ok(shades[darkest] > 0.5 && shades[darkest] <= 0.8, `${shades[darkest]}`);
   assert.ok(near < 0.15, `the darkest point is ${near} m from the limbs`);
-  for (let i = 0; i < side; ++i) {
-    for (const at of [i, (side - 1) * side + i, i * side, i * side + side - 1]) assert.equal(shades[at], 0, `point ${at} at the edge`);
+  for (let i = 0; i < SIDE; ++i) {
+    for (const at of [i, (SIDE - 1) * SIDE + i, i * SIDE, i * SIDE + SIDE - 1]) assert.equal(shades[at], 0, `point ${at} at the edge`);
   }
 });
