@@ -88,7 +88,7 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
-  const MasterReply reply = MasterClient().Call("getParam", arguments, kMasterPatience);
+  const MasterReply reply = MasterClient().Call("getParam", arguments);
   return reply.code == MasterReply::Code::kGood ? reply.value : XmlRpcValue();
 }
 
@@ -149,7 +149,8 @@ std::string MasterUri() {
 
 bool MasterIsReachable() {
   InitRos();
-  return MasterClient().Call("getPid", XmlRpcValue()).code == MasterReply::Code::kGood;
+  return MasterClient().Call("getPid", XmlRpcValue(), std::chrono::seconds(1)).code ==
+         MasterReply::Code::kGood;
 }
 
 void HurryRoscpp() {

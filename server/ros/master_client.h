@@ -60,7 +60,7 @@ class MasterClient {
   /// Calls `method` with this node's name and `arguments`, an array. Takes at most about `timeout`;
   /// a name server that does not answer can make it longer.
   MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
-                   std::chrono::milliseconds timeout = std::chrono::seconds(1));
+                   std::chrono::milliseconds timeout = kMasterPatience);
 
   /// Whether the master knows this node. It detects a master restarted under the same process id,
   /// as in a container, and one that `rosnode cleanup` made forget this node.

@@ -366,9 +366,7 @@ bool MasterRegistration::RegisterAll() {
     arguments[0] = topic;
     arguments[1] = type;
     arguments[2] = our_uri;
-    if (master_.Call("registerPublisher", arguments, kMasterPatience).code !=
-        MasterReply::Code::kGood)
-      return false;
+    if (master_.Call("registerPublisher", arguments).code != MasterReply::Code::kGood) return false;
     registered_.insert(topic);
   }
   return true;
@@ -378,7 +376,7 @@ bool MasterRegistration::SetParameter(const std::string& name, const XmlRpcValue
   XmlRpcValue arguments;
   arguments[0] = ros::names::resolve(name);
   arguments[1] = value;
-  return master_.Call("setParam", arguments, kMasterPatience).code == MasterReply::Code::kGood;
+  return master_.Call("setParam", arguments).code == MasterReply::Code::kGood;
 }
 
 // Stops at the first parameter that the master does not accept; the rest is tried again next time.
@@ -397,11 +395,11 @@ bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
   constexpr std::size_t kBeginning = 400;  // bytes, in which a URDF of ours says so
   XmlRpcValue arguments;
   arguments[0] = ros::names::resolve(parameter);
-  MasterReply has = master_.Call("hasParam", arguments, kMasterPatience);
+  MasterReply has = master_.Call("hasParam", arguments);
   answers = has.code == MasterReply::Code::kGood;
   if (!answers || has.value.getType() != XmlRpcValue::TypeBoolean) return answers;
   if (!static_cast<bool>(has.value)) return false;
-  MasterReply set = master_.Call("getParam", arguments, kMasterPatience);
+  MasterReply set = master_.Call("getParam", arguments);
   if (set.code == MasterReply::Code::kNoAnswer && set.problem.empty()) answers = false;
   if (set.code != MasterReply::Code::kGood) return true;  // one that is too large, for example
   if (set.value.getType() != XmlRpcValue::TypeString) return true;

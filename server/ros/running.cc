@@ -16,7 +16,7 @@ constexpr char kPublished[] = "/published/reference_frame";
 
 XmlRpcValue Ask(const char* method, const XmlRpcValue& arguments) {
   MasterClient master;
-  const MasterReply reply = master.Call(method, arguments, kMasterPatience);
+  const MasterReply reply = master.Call(method, arguments);
   if (reply.code == MasterReply::Code::kGood) return reply.value;
   throw UsageError("no ROS master at " + MasterUri() +
                    (reply.problem.empty() ? "" : ": it " + reply.problem) +

@@ -137,7 +137,7 @@ void LiveTopics::Register(const std::string& topic) {
   arguments[0] = topic;
   arguments[1] = "*";
   arguments[2] = ros::XMLRPCManager::instance()->getServerURI();
-  MasterReply reply = master_.Call("registerSubscriber", arguments, kMasterPatience);
+  MasterReply reply = master_.Call("registerSubscriber", arguments);
   if (reply.code != MasterReply::Code::kGood) return;  // tried again in a second
   MasterClient ourselves(ros::network::getHost(),
                          static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()));
@@ -151,7 +151,7 @@ void LiveTopics::Register(const std::string& topic) {
   update[0] = topic;
   int count = 0;
   for (const std::string& uri : wanted) update[1][count++] = uri;
-  ourselves.Call("publisherUpdate", update, kMasterPatience);
+  ourselves.Call("publisherUpdate", update);
 }
 
 std::set<std::string> LiveTopics::Orphans(const std::string& topic,
@@ -179,7 +179,7 @@ std::set<std::string> LiveTopics::Orphans(const std::string& topic,
 std::set<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
                                                       MasterClient& ourselves) {
   std::set<std::string> uris;
-  MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kMasterPatience);
+  MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue());
   if (reply.value.getType() != XmlRpcValue::TypeArray) return uris;
   for (int i = 0; i < reply.value.size(); ++i) {
     // [connection, publisher, "i" for incoming, transport, topic, ...]

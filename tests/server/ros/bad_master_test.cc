@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "core/system/errors.h"
 #include "tests/server/ros/bridge_fixture.h"
@@ -99,6 +101,17 @@ TEST_F(RosBridgeWithMaster, RequiresAMasterAndNamesAServerThatIsNone) {
               std::string::npos)
         << error.what();
   }
+}
+
+// As after a packet that the network lost.
+TEST_F(RosBridgeWithMaster, RequiresAMasterAndWaitsForOneThatAnswersLate) {
+  const BadMaster master(
+      [](int connection, const std::string&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // late is what this is about
+        Send(connection, MasterAnswer(1, 100));
+      },
+      port_.number());
+  EXPECT_NO_THROW((void)MakeRosBridge({}, RosMode::kRequired));
 }
 
 }  // namespace
