@@ -8,7 +8,7 @@
 namespace kinescope {
 namespace {
 
-PersonModel Person(double height, double mass_kg) {
+PersonModel PersonOf(double height, double mass_kg) {
   PersonModel model;
   model.human.skeleton = urdf::DefaultSkeleton(height);
   model.description.mass_kg = mass_kg;
@@ -20,7 +20,7 @@ TEST(Palette, DistinguishesTheClassesBySizeToo) {
     double before = 0;
     for (const LoadClass load_class :
          {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
-      const double radius = SphereRadius(joint, load_class, Person(1.75, 75));
+      const double radius = SphereRadius(joint, load_class, PersonOf(1.75, 75));
       EXPECT_GT(radius, 1.15 * before) << urdf::kJoints[static_cast<std::size_t>(joint)].label;
       before = radius;
     }
@@ -28,8 +28,8 @@ TEST(Palette, DistinguishesTheClassesBySizeToo) {
 }
 
 TEST(Palette, ScalesSpheresWithThePerson) {
-  EXPECT_DOUBLE_EQ(SphereRadius(urdf::jRightElbow, LoadClass::kLow, Person(1.9, 76)),
-                   2 * SphereRadius(urdf::jRightElbow, LoadClass::kLow, Person(0.95, 19)));
+  EXPECT_DOUBLE_EQ(SphereRadius(urdf::jRightElbow, LoadClass::kLow, PersonOf(1.9, 76)),
+                   2 * SphereRadius(urdf::jRightElbow, LoadClass::kLow, PersonOf(0.95, 19)));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kWidth = 640, kHeight = 360;
+constexpr double kFieldWidth = 640, kFieldHeight = 360;
 
 bool Overlap(const LabelBox& a, const LabelPlace& at, const LabelBox& b, const LabelPlace& bt) {
   return at.left < bt.left + b.width && bt.left < at.left + a.width && at.top < bt.top + b.height &&
@@ -16,7 +16,7 @@ bool Overlap(const LabelBox& a, const LabelPlace& at, const LabelBox& b, const L
 }
 
 TEST(LabelLayout, LeavesASingleLabelInPlace) {
-  const auto places = PlaceLabels({{100, 50, 40, 20}}, kWidth, kHeight);
+  const auto places = PlaceLabels({{100, 50, 40, 20}}, kFieldWidth, kFieldHeight);
   ASSERT_TRUE(places[0]);
   EXPECT_EQ(places[0]->left, 80);
   EXPECT_EQ(places[0]->top, 40);
@@ -25,19 +25,19 @@ TEST(LabelLayout, LeavesASingleLabelInPlace) {
 
 TEST(LabelLayout, KeepsLabelsSeparateAndInsideThePicture) {
   std::mt19937 random(6);  // the same on every run
-  std::uniform_real_distribution<double> x(0, kWidth), y(0, kHeight), width(20, 120);
+  std::uniform_real_distribution<double> x(0, kFieldWidth), y(0, kFieldHeight), width(20, 120);
   std::vector<LabelBox> boxes;
   for (int i = 0; i < 60; ++i) boxes.push_back({x(random), y(random), width(random), 20});
   for (int i = 0; i < 10; ++i) boxes.push_back({320, 180, 60, 20});  // all in one place
-  const auto places = PlaceLabels(boxes, kWidth, kHeight);
+  const auto places = PlaceLabels(boxes, kFieldWidth, kFieldHeight);
   int shown = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (!places[i]) continue;
     ++shown;
     EXPECT_GE(places[i]->left, 0);
-    EXPECT_LE(places[i]->left + boxes[i].width, kWidth);
+    EXPECT_LE(places[i]->left + boxes[i].width, kFieldWidth);
     EXPECT_GE(places[i]->top, 0);
-    EXPECT_LE(places[i]->top + boxes[i].height, kHeight);
+    EXPECT_LE(places[i]->top + boxes[i].height, kFieldHeight);
     for (std::size_t k = 0; k < i; ++k) {
       EXPECT_FALSE(places[k] && Overlap(boxes[i], *places[i], boxes[k], *places[k]));
     }
@@ -48,7 +48,7 @@ TEST(LabelLayout, KeepsLabelsSeparateAndInsideThePicture) {
 TEST(LabelLayout, PlacesFixedLabelsAtTheirPlaceOrNotAtAll) {
   const std::vector<LabelBox> boxes = {
       {100, 100, 40, 20}, {110, 105, 40, 20, false}, {200, 100, 40, 20, false}};
-  const auto places = PlaceLabels(boxes, kWidth, kHeight);
+  const auto places = PlaceLabels(boxes, kFieldWidth, kFieldHeight);
   EXPECT_TRUE(places[0]);
   EXPECT_FALSE(places[1]);
   ASSERT_TRUE(places[2]);
@@ -57,8 +57,9 @@ TEST(LabelLayout, PlacesFixedLabelsAtTheirPlaceOrNotAtAll) {
 
 TEST(LabelLayout, OmitsLabelsOutsideThePictureAndNonFiniteOnes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto places = PlaceLabels(
-      {{-1, 50, 40, 20}, {100, 400, 40, 20}, {nan, 50, 40, 20}, {1, 1, 40, 20}}, kWidth, kHeight);
+  const auto places =
+      PlaceLabels({{-1, 50, 40, 20}, {100, 400, 40, 20}, {nan, 50, 40, 20}, {1, 1, 40, 20}},
+                  kFieldWidth, kFieldHeight);
   EXPECT_FALSE(places[0]);
   EXPECT_FALSE(places[1]);
   EXPECT_FALSE(places[2]);
@@ -68,7 +69,7 @@ TEST(LabelLayout, OmitsLabelsOutsideThePictureAndNonFiniteOnes) {
 
 TEST(LabelLayout, AcceptsAnyNumberOfLabels) {
   const std::vector<LabelBox> boxes(20'000, LabelBox{320, 180, 60, 20});
-  const auto places = PlaceLabels(boxes, kWidth, kHeight);
+  const auto places = PlaceLabels(boxes, kFieldWidth, kFieldHeight);
   ASSERT_EQ(places.size(), boxes.size());
   EXPECT_FALSE(places.back());
 }

@@ -15,7 +15,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 270;
+constexpr int kViewWidth = 480, kViewHeight = 270;
 
 SceneState Empty() {
   SceneState state;
@@ -41,8 +41,8 @@ Camera Ahead() {
 class MarkerDrawing : public ::testing::Test {
  protected:
   MarkerDrawing() {
-    spec_.width = kWidth;
-    spec_.height = kHeight;
+    spec_.width = kViewWidth;
+    spec_.height = kViewHeight;
     spec_.parts.legend = false;  // which names the markers
     std::ofstream(folder_ / "box.stl", std::ios::binary) << kinescope::testing::BoxStl();
   }
@@ -66,7 +66,7 @@ TEST_F(MarkerDrawing, RendersEveryTypeAtItsPosition) {
   for (const SceneMarker& marker : all) {
     const Image image = Draw(With({marker}));
     const Comparison change = Compare(empty, image);
-    const Projected at = Project(marker.pose.position, Ahead(), kWidth, kHeight);
+    const Projected at = Project(marker.pose.position, Ahead(), kViewWidth, kViewHeight);
     ASSERT_GT(change.pixels, 20) << Name(marker.type);
     const double reach = 0.45 * at.px_per_m;
     EXPECT_NEAR(0.5 * (change.left + change.right), at.x_px, reach) << Name(marker.type);
@@ -117,7 +117,7 @@ TEST_F(MarkerDrawing, BlendsTranslucentMarkersWithTheirBackground) {
   const auto middle = [&](double opacity) {
     cube.color.w() = opacity;
     const Image image = Draw(With({cube}));
-    return static_cast<int>(image.rgba[4 * (kHeight / 2 * kWidth + kWidth / 2)]);
+    return static_cast<int>(image.rgba[4 * (kViewHeight / 2 * kViewWidth + kViewWidth / 2)]);
   };
   EXPECT_NEAR(middle(0.5), 0.5 * (middle(0) + middle(1)), 2);
   EXPECT_GT(std::abs(middle(0) - middle(1)), 20);

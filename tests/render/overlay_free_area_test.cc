@@ -13,7 +13,7 @@ namespace kinescope::render {
 namespace {
 
 // Where something is painted, px of the view or picture that was entered.
-class PlaceRecorder : public Painter {
+class BoxRecorder : public Painter {
  public:
   struct Painted {
     Tile tile;
@@ -76,12 +76,12 @@ void ExpectAllCovered(PictureSpec spec, std::size_t curves) {
     spec.load_curves = loads;
   }
   Overlay overlay;
-  PlaceRecorder recorder;
+  BoxRecorder recorder;
   const Tile whole{0, 0, spec.width, spec.height};
   overlay.Paint(recorder, state, {{whole, Camera(), "", {}}}, spec);
   const std::vector<FreeArea> areas = FreeAreasOf(spec, {whole}, curves);
   ASSERT_FALSE(recorder.painted.empty());
-  for (const PlaceRecorder::Painted& each : recorder.painted) {
+  for (const BoxRecorder::Painted& each : recorder.painted) {
     const PictureRect rect{each.left / spec.width, each.top / spec.height, each.right / spec.width,
                            each.bottom / spec.height};
     EXPECT_TRUE(IsCovered(rect, areas[0])) << each.left << ' ' << each.top << ' ' << each.right

@@ -17,7 +17,7 @@ namespace {
 using kinescope::testing::MixedScene;
 using kinescope::testing::Posture;
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kLookWidth = 320, kLookHeight = 240;
 
 // Everything that can be switched on is in it.
 SceneState FullScene() {
@@ -53,10 +53,10 @@ SceneState FullScene() {
   return state;
 }
 
-PictureSpec SmallView(int supersample = 1) {
+PictureSpec LookView(int supersample = 1) {
   PictureSpec spec;
-  spec.width = kWidth;
-  spec.height = kHeight;
+  spec.width = kLookWidth;
+  spec.height = kLookHeight;
   spec.supersample = supersample;
   return spec;
 }
@@ -83,7 +83,7 @@ class SceneLookDrawing : public ::testing::Test {
 TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhite) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     for (const int supersample : {1, 2, 4}) {
-      PictureSpec spec = SmallView(supersample);
+      PictureSpec spec = LookView(supersample);
       spec.look.theme = theme;
       spec.overlays = theme == Theme::kLight;  // texts are those of the theme, or suit white
       spec.look.ghosts.push_back({state_.people[0], 0.4});
@@ -116,7 +116,7 @@ TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhi
 // For slides of that theme: what is behind it is not known.
 TEST_F(SceneLookDrawing, HasTextsOfItsThemeWhereItIsTransparent) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
-    PictureSpec spec = SmallView();
+    PictureSpec spec = LookView();
     spec.width = 640;
     spec.height = 360;
     spec.overlays = true;
@@ -139,7 +139,7 @@ TEST_F(SceneLookDrawing, HasTextsOfItsThemeWhereItIsTransparent) {
 }
 
 TEST_F(SceneLookDrawing, HasTheBackgroundOfTheThemeOrTheRequestedOne) {
-  PictureSpec spec = SmallView();
+  PictureSpec spec = LookView();
   spec.look.floor = false;
   const auto corner = [&](const SceneLook& look) {
     spec.look.theme = look.theme;
@@ -159,7 +159,7 @@ TEST_F(SceneLookDrawing, HasTheBackgroundOfTheThemeOrTheRequestedOne) {
 }
 
 TEST_F(SceneLookDrawing, CanHideEveryElement) {
-  const PictureSpec standard = SmallView();
+  const PictureSpec standard = LookView();
   const Image shown = Draw(standard);
   for (const ScenePartInfo& info : kSceneParts) {
     PictureSpec spec = standard;
@@ -175,13 +175,13 @@ TEST_F(SceneLookDrawing, CanHideEveryElement) {
 }
 
 TEST_F(SceneLookDrawing, ShowsNoArrowForAnUnknownForce) {
-  PictureSpec without = SmallView();
+  PictureSpec without = LookView();
   without.look.shown.Set(ScenePart::kForces, false);
   SceneState unknown = state_;
   for (FootForce& foot : unknown.people[0].forces.feet) {
     foot.force.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  EXPECT_EQ(renderer_->Render(unknown, camera_, SmallView()).rgba, Draw(without).rgba);
+  EXPECT_EQ(renderer_->Render(unknown, camera_, LookView()).rgba, Draw(without).rgba);
 }
 
 TEST_F(SceneLookDrawing, ShowsAThousandNewtonsAsAnArrowOfOneMetre) {
@@ -191,7 +191,7 @@ TEST_F(SceneLookDrawing, ShowsAThousandNewtonsAsAnArrowOfOneMetre) {
   FootForce& foot = person.forces.feet[urdf::kRight];
   foot.cop = {0, -1.2, 0};  // away from everything else
   foot.force = {0, 0, 800};
-  PictureSpec bare = SmallView(2);
+  PictureSpec bare = LookView(2);
   bare.overlays = false;  // the legend would cover it
   const auto reaches = [&](double height) {
     const Eigen::Vector3d point = foot.cop + Eigen::Vector3d(0, 0, height);
@@ -205,7 +205,7 @@ TEST_F(SceneLookDrawing, ShowsAThousandNewtonsAsAnArrowOfOneMetre) {
 }
 
 TEST_F(SceneLookDrawing, ShowsTrailsAndReferencePosesAtTheirPlaces) {
-  PictureSpec spec = SmallView();
+  PictureSpec spec = LookView();
   spec.overlays = false;
   const Image before = Draw(spec);
   const Eigen::Vector3d from(0.2, 0.8, 1.4), to(0.2, 1.2, 1.8);

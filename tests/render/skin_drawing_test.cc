@@ -23,7 +23,7 @@ using kinescope::testing::BodyAlone;
 using kinescope::testing::FrontCamera;
 using kinescope::testing::Posture;
 
-constexpr int kWidth = 480, kHeight = 480;
+constexpr int kSquare = 480;
 
 SceneState Person(Posture posture = Posture::kStanding, bool is_built_in = true) {
   SceneState state = BodyAlone(posture);
@@ -37,8 +37,8 @@ SceneState Person(Posture posture = Posture::kStanding, bool is_built_in = true)
 class SkinDrawing : public ::testing::Test {
  protected:
   SkinDrawing() {
-    spec_.width = kWidth;
-    spec_.height = kHeight;
+    spec_.width = kSquare;
+    spec_.height = kSquare;
     spec_.overlays = false;
     spec_.look.figure = Figure::kSkin;
     spec_.look.floor = false;
@@ -172,12 +172,12 @@ TEST_F(LoadsOnSkin, AreHatchedWhereTheyAreUnknown) {
   // Every row through a knee has several stripes.
   const Image unknown = DrawWith(LoadsShown::kSkin, Loaded(LoadClass::kUnknown));
   int most = 0;
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < kSquare; ++y) {
     int changes = 0;
     bool was = false;
-    for (int x = 0; x < kWidth; ++x) {
+    for (int x = 0; x < kSquare; ++x) {
       const std::size_t i =
-          4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x));
+          4 * (static_cast<std::size_t>(y) * kSquare + static_cast<std::size_t>(x));
       const Rgb pixel = {unknown.rgba[i] / 255.0, unknown.rgba[i + 1] / 255.0,
                          unknown.rgba[i + 2] / 255.0};
       const bool is = ColorDifference(pixel, ColorOf(LoadClass::kUnknown)) < 12;
@@ -270,7 +270,7 @@ TEST_F(SkinDrawing, OfLinesHasThemAsVectors) {
 class Creases : public SkinDrawing {
  protected:
   Creases() {
-    spec_.width = spec_.height = 2 * kHeight;
+    spec_.width = spec_.height = 2 * kSquare;
     spec_.look.style = Style::kLine;
     spec_.parts = {};
     camera_.position = {0, -4, 1};

@@ -30,10 +30,10 @@ namespace {
 using kinescope::testing::ReadFile;
 using kinescope::testing::TempFolder;
 
-constexpr int kWidth = 322, kHeight = 182;
+constexpr int kClipWidth = 322, kClipHeight = 182;
 
 // Grey that depends on the frame, with an orange field: colour and order can be checked.
-Image Frame(int k, int width = kWidth, int height = kHeight) {
+Image Frame(int k, int width = kClipWidth, int height = kClipHeight) {
   Image image{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -126,7 +126,7 @@ void WriteClip(const std::filesystem::path& path, int frames, FrameRate rate) {
   VideoOptions options;
   options.rate = rate;
   options.metadata = {{"title", "trial 3"}};
-  const auto video = MakeVideoWriter(path, kWidth, kHeight, options);
+  const auto video = MakeVideoWriter(path, kClipWidth, kClipHeight, options);
   for (int k = 0; k < frames; ++k) video->Add(Frame(k));
   video->Finish();
 }
@@ -136,17 +136,18 @@ TEST(Video, ContainsEveryFrameInOrderAndInColour) {
   WriteClip(folder / "clip.mp4", 45, {30, 1});
   const Clip clip = ReadClip(folder / "clip.mp4");
   EXPECT_EQ(clip.codec, "h264");
-  EXPECT_EQ(clip.width, kWidth);
-  EXPECT_EQ(clip.height, kHeight);
+  EXPECT_EQ(clip.width, kClipWidth);
+  EXPECT_EQ(clip.height, kClipHeight);
   EXPECT_EQ(clip.title, "trial 3");
   EXPECT_NEAR(clip.duration_secs, 45 / 30.0, 1e-3);
   ASSERT_EQ(clip.frames.size(), 45u);
   for (std::size_t k = 0; k < clip.frames.size(); ++k) {
     const Image& frame = clip.frames[k];
-    EXPECT_NEAR(frame.rgba[4 * (20 * kWidth + 20)], 40 + 4 * static_cast<int>(k), 3)
+    EXPECT_NEAR(frame.rgba[4 * (20 * kClipWidth + 20)], 40 + 4 * static_cast<int>(k), 3)
         << "picture " << k;
     EXPECT_NEAR(clip.times_secs[k], static_cast<double>(k) / 30, 1e-6);
-    const std::uint8_t* field = &frame.rgba[4 * ((kHeight - 20) * kWidth + kWidth - 20)];
+    const std::uint8_t* field =
+        &frame.rgba[4 * ((kClipHeight - 20) * kClipWidth + kClipWidth - 20)];
     EXPECT_NEAR(field[0], 255, 4);
     EXPECT_NEAR(field[1], 140, 4);
     EXPECT_NEAR(field[2], 0, 4);
@@ -349,16 +350,16 @@ TEST(Video, HasTheSameBytesIfTheFloorOfItsFramesIsKnown) {
   const Image still = Frame(3);
   const auto floor = std::make_shared<const std::vector<std::uint8_t>>(still.rgba);
   const auto write = [&](const char* name, bool is_known) {
-    const auto writer = MakeVideoWriter(folder / name, kWidth, kHeight, VideoOptions());
+    const auto writer = MakeVideoWriter(folder / name, kClipWidth, kClipHeight, VideoOptions());
     for (int k = 0; k < 30; ++k) {
       Image image = still;
       const Tile square{7 * k, 5 * k, 31, 40};
-      for (int y = square.y; y < square.y + square.height && y < kHeight; ++y) {
-        const auto row = image.rgba.begin() + 4 * (y * kWidth + square.x);
+      for (int y = square.y; y < square.y + square.height && y < kClipHeight; ++y) {
+        const auto row = image.rgba.begin() + 4 * (y * kClipWidth + square.x);
         std::fill(row, row + 4 * square.width, static_cast<std::uint8_t>(200 + k));
         for (int x = 0; x < square.width; ++x) row[4 * x + 3] = 255;
       }
-      image.changed = CellSet(kWidth, kHeight);
+      image.changed = CellSet(kClipWidth, kClipHeight);
       image.changed.Add(square);
       const bool is_of_another = k == 12;  // a camera that moved for once
       if (is_known && !is_of_another) image.floor = floor;
@@ -396,7 +397,7 @@ TEST(Video, HasTheSameFramesAccordingToFfprobe) {
 TEST(Video, LeavesNothingOfAnUnfinishedClip) {
   const TempFolder folder;
   {
-    const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+    const auto video = MakeVideoWriter(folder / "clip.mp4", kClipWidth, kClipHeight, {});
     for (int k = 0; k < 5; ++k) video->Add(Frame(k));
     EXPECT_THAT(folder.Names(), ::testing::Not(::testing::Contains("clip.mp4")))
         << "half a clip is there";
@@ -408,7 +409,7 @@ TEST(Video, KeepsTheOldClipUntilTheNewOneIsComplete) {
   const TempFolder folder;
   std::ofstream(folder / "clip.mp4") << "old";
   {
-    const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+    const auto video = MakeVideoWriter(folder / "clip.mp4", kClipWidth, kClipHeight, {});
     video->Add(Frame(0));
     EXPECT_EQ(ReadFile(folder / "clip.mp4"), "old");
     video->Finish();
@@ -419,7 +420,7 @@ TEST(Video, KeepsTheOldClipUntilTheNewOneIsComplete) {
 
 TEST(Video, RejectsAFrameOfAnotherSize) {
   const TempFolder folder;
-  const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+  const auto video = MakeVideoWriter(folder / "clip.mp4", kClipWidth, kClipHeight, {});
   video->Add(Frame(0));
   EXPECT_THROW(video->Add(Frame(1, 64, 64)), std::runtime_error);
   video->Add(Frame(1));  // the clip goes on
@@ -429,7 +430,7 @@ TEST(Video, RejectsAFrameOfAnotherSize) {
 
 TEST(Video, RejectsAnEmptyClip) {
   const TempFolder folder;
-  const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+  const auto video = MakeVideoWriter(folder / "clip.mp4", kClipWidth, kClipHeight, {});
   EXPECT_THROW(video->Finish(), std::runtime_error);
 }
 

@@ -16,7 +16,7 @@ using kinescope::testing::BodyAlone;
 using kinescope::testing::FrontCamera;
 using kinescope::testing::Wear;
 
-constexpr int kWidth = 640, kHeight = 480;
+constexpr int kWornWidth = 640, kWornHeight = 480;
 
 SceneState Gloved(double bend = 0.3) {
   SceneState state = BodyAlone();
@@ -40,8 +40,8 @@ SceneState Handless() {
 class WornDrawing : public ::testing::Test {
  protected:
   WornDrawing() {
-    spec_.width = kWidth;
-    spec_.height = kHeight;
+    spec_.width = kWornWidth;
+    spec_.height = kWornHeight;
     spec_.overlays = false;
   }
   Image Draw(const SceneState& state) { return renderer_->Render(state, FrontCamera(), spec_); }
@@ -75,8 +75,8 @@ TEST_F(WornDrawing, ShowsAFingerAtItsPose) {
   const Eigen::Vector3d was = pose.position, is(0, 0.9, 1.6);
   pose.position = is;
   const Comparison change = Change(before, after);
-  const Projected from = Project(was, FrontCamera(), kWidth, kHeight);
-  const Projected to = Project(is, FrontCamera(), kWidth, kHeight);
+  const Projected from = Project(was, FrontCamera(), kWornWidth, kWornHeight);
+  const Projected to = Project(is, FrontCamera(), kWornWidth, kWornHeight);
   EXPECT_NEAR(change.top, to.y_px, 4);
   EXPECT_NEAR(change.bottom, from.y_px, 6);
   EXPECT_NEAR(change.right, to.x_px, 4);
@@ -87,7 +87,7 @@ TEST_F(WornDrawing, ShowsBentFingers) {
   EXPECT_GT(change.pixels, 100);
   const PersonState person = Gloved(0).people[0];
   const Projected wrist =
-      Project(person.links[urdf::kRightHand].position, FrontCamera(), kWidth, kHeight);
+      Project(person.links[urdf::kRightHand].position, FrontCamera(), kWornWidth, kWornHeight);
   EXPECT_GT(change.top, wrist.y_px) << "all below the wrists";
 }
 
@@ -106,7 +106,7 @@ TEST_F(WornDrawing, ShowsAPropAsABoxAtItsPose) {
   SceneState after = Gloved();
   const Eigen::Vector3d at = after.people[0].props[0]->pose.position;
   const Comparison change = Change(before, after);
-  const Projected seen = Project(at, FrontCamera(), kWidth, kHeight);
+  const Projected seen = Project(at, FrontCamera(), kWornWidth, kWornHeight);
   EXPECT_NEAR((change.left + change.right) / 2.0, seen.x_px, 3);
   EXPECT_NEAR(change.right - change.left, 0.06 * seen.px_per_m, 4);
 }
@@ -116,9 +116,9 @@ TEST_F(WornDrawing, ShowsAStaleGloveAndPropInGrey) {
   state.liveness = Liveness::kStale;
   const Image stale = Draw(state);
   const Projected at =
-      Project(state.people[0].props[2]->pose.position, FrontCamera(), kWidth, kHeight);
+      Project(state.people[0].props[2]->pose.position, FrontCamera(), kWornWidth, kWornHeight);
   const auto pixel = static_cast<std::size_t>(
-      4 * (static_cast<int>(at.y_px) * kWidth + static_cast<int>(at.x_px)));
+      4 * (static_cast<int>(at.y_px) * kWornWidth + static_cast<int>(at.x_px)));
   EXPECT_NEAR(stale.rgba[pixel], stale.rgba[pixel + 2], 12) << "a live prop is bluish";
 }
 
@@ -128,7 +128,7 @@ TEST_F(WornDrawing, ShowsATrackedObjectAsABoxWithItsName) {
   const Eigen::Vector3d at(0, 0.8, 1.2);
   after.objects.push_back({4, 0, "HTC Vive 1", {at, Eigen::Quaterniond::Identity()}, 5});
   const Comparison change = Change(before, after);
-  const Projected seen = Project(at, FrontCamera(), kWidth, kHeight);
+  const Projected seen = Project(at, FrontCamera(), kWornWidth, kWornHeight);
   EXPECT_NEAR(change.bottom, seen.y_px + 0.025 * seen.px_per_m, 3);
   EXPECT_NEAR(change.top, seen.y_px - 0.15 * seen.px_per_m, 3) << "its z axis";
   EXPECT_NEAR(change.right, seen.x_px + 0.15 * seen.px_per_m, 3) << "its y axis";
@@ -146,7 +146,8 @@ TEST_F(WornDrawing, ShowsAnyNumberOfObjects) {
   SceneState fewer = state;
   fewer.objects.pop_back();
   const Comparison last = Change(fewer, state);
-  const Projected at = Project(state.objects.back().pose.position, FrontCamera(), kWidth, kHeight);
+  const Projected at =
+      Project(state.objects.back().pose.position, FrontCamera(), kWornWidth, kWornHeight);
   EXPECT_NEAR(last.right, at.x_px + 0.15 * at.px_per_m, 4);
   fewer.objects.clear();
   EXPECT_TRUE(Compare(Draw(BodyAlone()), Draw(fewer)).equal());

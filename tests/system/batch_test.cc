@@ -20,6 +20,7 @@
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
+#include "tests/system/reader_of.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -36,19 +37,6 @@ using ::testing::Not;
 using testing::ProgramResult;
 using testing::ReadFile;
 using testing::TempFolder;
-
-// The only process, if any, that has `file` open and is not this one.
-pid_t ReaderOf(const fs::path& file) {
-  for (const auto& process : fs::directory_iterator("/proc")) {
-    const int id = std::atoi(process.path().filename().c_str());
-    if (id == 0 || id == ::getpid()) continue;
-    std::error_code ignored;
-    for (const auto& open : fs::directory_iterator(process.path() / "fd", ignored)) {
-      if (fs::read_symlink(open.path(), ignored) == file) return id;
-    }
-  }
-  return 0;
-}
 
 class Batch : public ::testing::Test {
  protected:
@@ -341,7 +329,7 @@ TEST_F(Batch, IsStoppedAndGoesOn) {
   const int pipe =
       ::open(In("waits.mvnx").c_str(), O_WRONLY | O_CLOEXEC);  // returns when it is read
   ASSERT_GE(pipe, 0);
-  const pid_t worker = ReaderOf(In("waits.mvnx"));
+  const pid_t worker = testing::ReaderOf(In("waits.mvnx"));
   std::ifstream status("/proc/" + std::to_string(worker) + "/status");
   pid_t parent = 0;
   for (std::string line; std::getline(status, line);) {
@@ -373,7 +361,7 @@ TEST_F(Batch, DoesNotCallJobsFailedWhoseProcessWasStopped) {
   auto batch = std::async(std::launch::async, [&] { return Run(); });
   const int pipe = ::open(In("waits.mvnx").c_str(), O_WRONLY | O_CLOEXEC);
   ASSERT_GE(pipe, 0);
-  ASSERT_EQ(::kill(ReaderOf(In("waits.mvnx")), SIGTERM), 0);
+  ASSERT_EQ(::kill(testing::ReaderOf(In("waits.mvnx")), SIGTERM), 0);
   const ProgramResult result = batch.get();
   ::close(pipe);
   EXPECT_EQ(result.exit_code, 1);
@@ -386,7 +374,7 @@ TEST_F(Batch, DoesTheOthersWhenAJobCrashes) {
   auto batch = std::async(std::launch::async, [&] { return Run(); });
   const int pipe = ::open(In("crashes.mvnx").c_str(), O_WRONLY | O_CLOEXEC);
   ASSERT_GE(pipe, 0);
-  ASSERT_EQ(::kill(ReaderOf(In("crashes.mvnx")), SIGSEGV), 0);
+  ASSERT_EQ(::kill(testing::ReaderOf(In("crashes.mvnx")), SIGSEGV), 0);
   ::close(pipe);
   const ProgramResult result = batch.get();
   EXPECT_EQ(result.exit_code, 1);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/system/golden_fixture.h"
+#include "tests/system/reader_of.h"
 
 namespace kinescope {
 namespace {
@@ -21,19 +22,6 @@ using ::testing::AllOf;
 using testing::Golden;
 using ::testing::HasSubstr;
 using testing::ProgramResult;
-
-// The other process that has `file` open.
-pid_t ReaderOf(const fs::path& file) {
-  for (const auto& process : fs::directory_iterator("/proc")) {
-    const int id = std::atoi(process.path().filename().c_str());
-    if (id == 0 || id == ::getpid()) continue;
-    std::error_code ignored;
-    for (const auto& open : fs::directory_iterator(process.path() / "fd", ignored)) {
-      if (fs::read_symlink(open.path(), ignored) == file) return id;
-    }
-  }
-  return 0;
-}
 
 class GoldenJobs : public testing::GoldenCheck {
  protected:
@@ -71,7 +59,7 @@ TEST_F(GoldenJobs, CompareTheOthersWhenACaseCrashes) {
   const fs::path pipe = case_ / "a_crashes.mvnx";
   const int writer = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);  // returns when it is read
   ASSERT_GE(writer, 0);
-  ASSERT_EQ(::kill(ReaderOf(pipe), SIGSEGV), 0);
+  ASSERT_EQ(::kill(testing::ReaderOf(pipe), SIGSEGV), 0);
   ::close(writer);
   const ProgramResult result = check.get();
   EXPECT_EQ(result.exit_code, 2);

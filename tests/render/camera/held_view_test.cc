@@ -43,7 +43,7 @@ const ViewHull kLying = Box({-0.9, 0, -0.3}, {0.9, 0.3, 0.3});
 double HeightFor(const ViewHull& hull) { return PlaceFor(hull, Level(), kWide).height; }
 
 // What is shown after `secs` more seconds in which `needed` is constant.
-class Take {
+class HeldTake {
  public:
   double Play(const ViewHull& needed, double secs) {
     const double end = secs_ + secs;
@@ -101,7 +101,7 @@ TEST(BesideCorners, MovesThePictureOnlyWherePeopleWouldBeCovered) {
 TEST(HeldView, ComesNearerSlowlyAfterTwoSecondsAndMakesRoomAtOnce) {
   const double standing = HeightFor(kStanding), sitting = HeightFor(kSitting);
   const double overhead = HeightFor(kOverhead);
-  Take take;
+  HeldTake take;
   take.Play(kStanding, 5);
   EXPECT_EQ(take.Play(kSitting, 1.8), standing);
   EXPECT_GT(take.Play(kSitting, 1), 0.75 * standing);
@@ -113,7 +113,7 @@ TEST(HeldView, ComesNearerSlowlyAfterTwoSecondsAndMakesRoomAtOnce) {
 }
 
 TEST(HeldView, LearnsToStandStillForAPersonWhoBendsAndRisesAgain) {
-  Take take;
+  HeldTake take;
   for (int i = 0; i < 3; ++i) {
     take.Play(kStanding, 3);
     take.Play(kSitting, 4);
@@ -130,7 +130,7 @@ TEST(HeldView, LearnsToStandStillForAPersonWhoBendsAndRisesAgain) {
 }
 
 TEST(HeldView, IgnoresSmallDifferences) {
-  Take take;
+  HeldTake take;
   take.Play(kStanding, 2);
   const double held = HeightFor(kStanding);
   EXPECT_EQ(take.Play(Box({-0.6, -0.05, -0.2}, {0.5, 1.9, 0.3}), 5), held);

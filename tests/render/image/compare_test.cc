@@ -8,7 +8,7 @@
 namespace kinescope::render {
 namespace {
 
-Image Grey(int width, int height, std::uint8_t level = 100) {
+Image GreyPicture(int width, int height, std::uint8_t level = 100) {
   Image image{width, height, {}};
   image.rgba.resize(static_cast<std::size_t>(4 * width * height), level);
   return image;
@@ -19,7 +19,7 @@ std::uint8_t& Channel(Image& image, int x, int y, int channel) {
 }
 
 TEST(Compare, IgnoresTwoLevelsAndReportsThree) {
-  const Image expected = Grey(8, 6);
+  const Image expected = GreyPicture(8, 6);
   Image actual = expected;
   Channel(actual, 3, 2, 1) = 102;
   EXPECT_TRUE(Compare(expected, actual).equal());
@@ -31,7 +31,7 @@ TEST(Compare, IgnoresTwoLevelsAndReportsThree) {
 }
 
 TEST(Compare, ReportsTheNumberAndPlaceOfDifferentPixels) {
-  const Image expected = Grey(20, 10);
+  const Image expected = GreyPicture(20, 10);
   Image actual = expected;
   Channel(actual, 4, 7, 0) = 0;
   Channel(actual, 15, 3, 2) = 177;
@@ -47,14 +47,14 @@ TEST(Compare, ReportsTheNumberAndPlaceOfDifferentPixels) {
 }
 
 TEST(Compare, ReportsADifferentSize) {
-  const Comparison comparison = Compare(Grey(8, 6), Grey(6, 8));
+  const Comparison comparison = Compare(GreyPicture(8, 6), GreyPicture(6, 8));
   EXPECT_FALSE(comparison.equal());
   EXPECT_FALSE(comparison.same_size);
-  EXPECT_THAT(Describe(comparison, Grey(6, 8)), ::testing::HasSubstr("6 x 8"));
+  EXPECT_THAT(Describe(comparison, GreyPicture(6, 8)), ::testing::HasSubstr("6 x 8"));
 }
 
 TEST(Compare, ShowsDifferencesInRedOnAPalePicture) {
-  const Image expected = Grey(4, 4, 30);
+  const Image expected = GreyPicture(4, 4, 30);
   Image actual = expected;
   Channel(actual, 1, 2, 0) = 200;
   Image diff = DiffImage(expected, actual);
@@ -67,7 +67,7 @@ TEST(Compare, ShowsDifferencesInRedOnAPalePicture) {
 TEST(Resample, AveragesBoxesAndRoundsToNearest) {
   const std::vector<std::uint8_t> large = {0, 0, 0, 255, 1, 0, 4, 255,   // first row, two pixels
                                            1, 0, 0, 255, 1, 1, 2, 255};  // second row
-  Image target = Grey(3, 2, 9);
+  Image target = GreyPicture(3, 2, 9);
   AverageInto(large.data(), 1, 1, 2, target, 2, 1);
   EXPECT_EQ(Channel(target, 2, 1, 0), 1);  // 3 / 4
   EXPECT_EQ(Channel(target, 2, 1, 1), 0);  // 1 / 4

@@ -21,7 +21,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kError = 0.001;  // m
+constexpr double kSkinError = 0.001;  // m
 
 // Some around the middle of the body, as the hems of a suit.
 bool IsHem(const skin::Triangle& triangle) {
@@ -33,8 +33,8 @@ bool IsHem(const skin::Triangle& triangle) {
 
 // For several tests, because making one takes seconds in a sanitized program.
 const CoarserSkin& CoarserMan() {
-  static const CoarserSkin kSkin =
-      MakeCoarserSkin(skin::BuiltInSkin(), skin::Build(), urdf::DefaultSkeleton(), kError, IsHem);
+  static const CoarserSkin kSkin = MakeCoarserSkin(skin::BuiltInSkin(), skin::Build(),
+                                                   urdf::DefaultSkeleton(), kSkinError, IsHem);
   return kSkin;
 }
 
@@ -219,7 +219,7 @@ TEST(CoarserSkin, HasTheLightOfTheWholeEverywhereInEveryPosture) {
 TEST(CoarserSkin, HasTheLightOfTheWholeOnASmallWoman) {
   const skin::Build woman{1, 0};
   const CoarserSkin coarser = MakeCoarserSkin(skin::BuiltInSkin(), woman, urdf::DefaultSkeleton(),
-                                              2 * kError, [](const auto&) { return false; });
+                                              2 * kSkinError, [](const auto&) { return false; });
   for (const auto& [name, most] : LightErrors(woman).Of(coarser)) {
     EXPECT_LT(most.area, 65e-4) << name;
     // The arm hides the crease of its own folded elbow, in which a square centimetre is wrong.

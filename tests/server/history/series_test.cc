@@ -16,7 +16,7 @@ using http::testing::MakePersonModel;
 using http::testing::MakeScene;
 using ::testing::ElementsAre;
 
-constexpr std::int64_t kStep = 1'000'000;  // ns between samples
+constexpr std::int64_t kStepNanos = 1'000'000;  // ns between samples
 
 SceneState SampleAt(std::uint32_t number, int people = 1) {
   static const auto model = MakePersonModel();
@@ -24,7 +24,7 @@ SceneState SampleAt(std::uint32_t number, int people = 1) {
   SceneState state = kFirst;
   state.people.resize(static_cast<std::size_t>(people));
   state.number = number;
-  state.made_nanos = number * kStep;
+  state.made_nanos = number * kStepNanos;
   for (PersonState& person : state.people) {
     person.sample.counter = number;
     person.sample.stamp_nanos = state.made_nanos;
@@ -34,7 +34,7 @@ SceneState SampleAt(std::uint32_t number, int people = 1) {
 
 SeriesQuestion Question(std::vector<std::size_t> keys, std::int64_t from, std::int64_t until,
                         std::size_t columns) {
-  return {0, std::move(keys), from * kStep, until * kStep, columns};
+  return {0, std::move(keys), from * kStepNanos, until * kStepNanos, columns};
 }
 
 TEST(Series, HasTheNamesOfAllScoredJointsAndFindsEachKey) {
@@ -174,7 +174,7 @@ TEST(Series, EndsWithUnknownLoadsWhenTheStreamStopsAndHasAGapAfterIt) {
   for (std::uint32_t i = 0; i < 100; ++i) series.Add(SampleAt(i));
   for (std::uint32_t i = 150; i < 250; ++i) {
     SceneState state = SampleAt(99);
-    state.made_nanos = i * kStep;
+    state.made_nanos = i * kStepNanos;
     state.liveness = Liveness::kStale;
     for (JointLoad& load : state.people[0].loads) {
       load.ratio = std::nan("");
@@ -195,7 +195,7 @@ TEST(Series, KeepsASampleOnceThoughEachStateHasAllPeople) {
     SceneState state = SampleAt(i, 2);
     if (i % 2 == 0) {  // a sample of the second person only
       state.people[0].sample.counter = i - 1;
-      state.people[0].sample.stamp_nanos = (i - 1) * kStep;
+      state.people[0].sample.stamp_nanos = (i - 1) * kStepNanos;
     }
     series.Add(state);
   }
@@ -210,7 +210,7 @@ TEST(Series, KeepsASampleOnceThoughEachStateHasAllPeople) {
 
 TEST(Series, ForgetsWhatIsTooOldOrTooMuch) {
   SeriesLimits limits;
-  limits.nanos = 1000 * kStep;
+  limits.nanos = 1000 * kStepNanos;
   Series brief(limits);
   for (std::uint32_t i = 0; i < 5000; ++i) brief.Add(SampleAt(i));
   const auto counted = brief.Ask(Question({kRate}, 0, 5000, 1))->samples[0];

@@ -30,7 +30,7 @@ class StaticFilesTest : public ::testing::Test {
     return urls;
   }
 
-  const testing::TempFolder folder_;
+  const kinescope::testing::TempFolder folder_;
 };
 
 TEST_F(StaticFilesTest, ListsOnlyThePageAndItsLibraries) {

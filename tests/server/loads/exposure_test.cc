@@ -5,12 +5,12 @@
 #include <limits>
 #include <vector>
 
+#include "core/system/clocks.h"
 #include "tests/server/loads/loads_testing.h"
 
 namespace kinescope::loads::testing {
 namespace {
 
-constexpr std::int64_t kMillis = 1'000'000;
 constexpr double kUnknownRatio = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<JointLoad> LoadsOf(double ratio) {
@@ -26,7 +26,8 @@ std::vector<JointLoad> LoadsOf(double ratio) {
 JointExposure ExposureOf(const std::vector<double>& ratios, std::int64_t step_millis = 100) {
   Exposure exposure;
   std::int64_t now = 0;
-  for (const double ratio : ratios) exposure.Add(LoadsOf(ratio), step_millis * kMillis * now++);
+  for (const double ratio : ratios)
+    exposure.Add(LoadsOf(ratio), step_millis * kNanosPerMilli * now++);
   exposure.Finish();
   return exposure.Of(3);
 }
@@ -56,7 +57,7 @@ TEST(Exposure, MatchesTheWorkedExample) {
   EXPECT_EQ(joint.peak_moment, 90);
   EXPECT_EQ(joint.peak_capacity, 100);
   EXPECT_EQ(joint.peak_channel, "flexion");
-  EXPECT_EQ(joint.peak_stamp_nanos, 1700 * kMillis);
+  EXPECT_EQ(joint.peak_stamp_nanos, 1700 * kNanosPerMilli);
 }
 
 TEST(Exposure, CountsARatioAtALimitToTheLowerBand) {
@@ -116,7 +117,7 @@ TEST(Exposure, CountsATremblingRatioAsOneRise) {
 TEST(Exposure, EndsHoldsAtGapsAndBackwardSteps) {
   Exposure exposure;
   for (const std::int64_t millis : {0, 100, 200, 3'600'000, 3'600'100, 50, 150}) {
-    exposure.Add(LoadsOf(0.9), millis * kMillis);
+    exposure.Add(LoadsOf(0.9), millis * kNanosPerMilli);
   }
   exposure.Finish();
   EXPECT_EQ(exposure.samples(), 7U);
@@ -130,7 +131,7 @@ TEST(BandTimes, CountTheTimeInEachBandUpToTheNewestSample) {
     std::array<JointLoad, urdf::kScoredJointCount> loads;
     const std::vector<JointLoad> all = LoadsOf(ratio);
     std::copy(all.begin(), all.end(), loads.begin());
-    times.Add(loads, millis * kMillis);
+    times.Add(loads, millis * kNanosPerMilli);
   };
   add(0.1, 0);
   add(0.4, 300);

@@ -2,13 +2,12 @@
 
 #include <random>
 
+#include "core/system/clocks.h"
 #include "server/loads/support_polygon.h"
 #include "tests/server/loads/loads_testing.h"
 
 namespace kinescope::loads::testing {
 namespace {
-
-constexpr std::int64_t kMillis = 1'000'000;
 
 // A foot that is moved by hand: the right one of somebody standing.
 class Feet {
@@ -24,7 +23,7 @@ class Feet {
     Step(millis);
   }
   void Step(std::int64_t millis) {
-    now_ += millis * kMillis;
+    now_ += millis * kNanosPerMilli;
     contacts_.Update(SampleOf(links_, now_), links_, Person(), 0, {});
   }
 
@@ -162,7 +161,7 @@ TEST(FootContacts, UseStreamedVelocitiesWhereThereAreAny) {
   LinkPoses links = Posed({});
   FootContacts contacts;
   for (int i = 0; i < 10; ++i) {
-    BodySample sample = SampleOf(links, 1 + i * 10 * kMillis);
+    BodySample sample = SampleOf(links, 1 + i * 10 * kNanosPerMilli);
     sample.has_linear = sample.has_angular = true;
     for (const auto segment : {std::size_t(kRightFoot), std::size_t(kRightToe)}) {
       sample.segments[segment].velocity = Vector3d(i < 5 ? 0.01 : 1.0, 0, 0);
@@ -218,7 +217,7 @@ TEST(FootContacts, FollowTheSenderWithRampsEvenAgainstThePose) {
   BodySample sample = SampleOf(links);
   const auto tell = [&](bool right, bool left, std::int64_t millis) {
     sample.foot_contacts = {FootContactFlags{right, right}, FootContactFlags{left, left}};
-    sample.stamp_nanos += millis * kMillis;
+    sample.stamp_nanos += millis * kNanosPerMilli;
     contacts.Update(sample, links, Person(), 0, {});
   };
   tell(true, false, 0);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "tests/server/loads/loads_testing.h"
 
@@ -9,7 +10,6 @@ namespace kinescope::loads::testing {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr std::int64_t kMillis = 1'000'000;
 
 struct Pushed {
   ExternalForces external;
@@ -68,7 +68,7 @@ TEST(HandLoads, OfBothHandsAreSharedByTheirPosition) {
 TEST(HandLoads, ChangeWithinThreeTenthsOfASecond) {
   HandLoads hands;
   const auto mass_at = [&](const HandLoad& load, std::int64_t millis) {
-    hands.Update(load, millis * kMillis);
+    hands.Update(load, millis * kNanosPerMilli);
     return PushAt(hands, Posed({})).shown[kRight].mass_kg;
   };
   EXPECT_EQ(mass_at(Held(0), 0), 0);
@@ -90,7 +90,7 @@ TEST(HandLoads, KeepTheirPlaceWhenReleased) {
   const Vector3d before = PushAt(hands, Posed({})).shown[kRight].point;
   HandLoad nothing;
   nothing.is_known = true;
-  hands.Update(nothing, 100 * kMillis);
+  hands.Update(nothing, 100 * kNanosPerMilli);
   const HandForce after = PushAt(hands, Posed({})).shown[kRight];
   EXPECT_NEAR(after.mass_kg, 4, 1e-9);
   EXPECT_LT((after.point - before).norm(), 1e-12);
@@ -101,7 +101,7 @@ TEST(HandLoads, IncludeMeasuredForcesWhileTheyAreValid) {
   std::array<std::optional<MeasuredHandForce>, 2> measured;
   measured[kLeft] = MeasuredHandForce{{10, 0, -20}, {0, 0, 1}, Vector3d(0.5, 0.2, 1), 0};
   const LinkPoses links = Posed({});
-  const Pushed fresh = PushAt(hands, links, {}, measured, 499 * kMillis);
+  const Pushed fresh = PushAt(hands, links, {}, measured, 499 * kNanosPerMilli);
   EXPECT_TRUE(fresh.shown[kLeft].is_measured);
   EXPECT_EQ(fresh.external.on(kLeftHand).force, Vector3d(10, 0, -20));
   const Vector3d arm = Vector3d(0.5, 0.2, 1) - links[kLeftHand].position;
@@ -109,7 +109,7 @@ TEST(HandLoads, IncludeMeasuredForcesWhileTheyAreValid) {
       (fresh.external.on(kLeftHand).moment - Vector3d(0, 0, 1) - arm.cross(Vector3d(10, 0, -20)))
           .norm(),
       1e-12);
-  EXPECT_FALSE(PushAt(hands, links, {}, measured, 501 * kMillis).shown[kLeft].is_measured);
+  EXPECT_FALSE(PushAt(hands, links, {}, measured, 501 * kNanosPerMilli).shown[kLeft].is_measured);
 }
 
 TEST(HandLoad, IsReadFromText) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/loads/zero_phase_filter.h"
 #include "server/subject/subject.h"
@@ -11,7 +12,6 @@ namespace kinescope::loads::testing {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr std::int64_t kMillis = 1'000'000;
 
 // Both feet on the floor whatever they do.
 LoadSettings AlwaysStanding() {
@@ -188,7 +188,7 @@ TEST(LoadEstimator, ReportsLeaningOnlyAfterADelay) {
     LoadSettings settings;
     settings.motion.cutoff_hz = 1e6;  // lets everything through
     const LinkPoses links = Posed({});
-    BodySample sample = SampleOf(links, now += millis * kMillis, &motion);
+    BodySample sample = SampleOf(links, now += millis * kNanosPerMilli, &motion);
     for (SegmentState& segment : sample.segments) segment.velocity = {0.001 * lurch, 0, 0};
     return estimator.Update(sample, links, subject, settings).forces.external_contact_suspected;
   };
@@ -217,10 +217,11 @@ TEST(LoadEstimator, ReportsUnknownLoadsOfANonFinitePoseAndRecovers) {
   estimator.Update(SampleOf(links, 1), links, subject, LoadSettings());
   const LinkPoses good = links;
   links[kLeftHand].position.y() = std::nan("");
-  ExpectUnknown(estimator.Update(SampleOf(links, 10 * kMillis), links, subject, LoadSettings()),
-                "not finite", Any);
+  ExpectUnknown(
+      estimator.Update(SampleOf(links, 10 * kNanosPerMilli), links, subject, LoadSettings()),
+      "not finite", Any);
   const LoadResult& after =
-      estimator.Update(SampleOf(good, 20 * kMillis), good, subject, LoadSettings());
+      estimator.Update(SampleOf(good, 20 * kNanosPerMilli), good, subject, LoadSettings());
   EXPECT_EQ(LoadOf(after, jRightKnee).load_class, LoadClass::kLow);
 }
 
@@ -244,9 +245,9 @@ TEST(LoadEstimator, ReportsUnknownLoadsAfterAHandSensorStopped) {
   const auto concerns = [](int joint) {
     return joint != jT1C7 && joint != jLeftShoulder && joint != jLeftElbow && joint != jLeftWrist;
   };
-  ExpectUnknown(
-      estimator.Update(SampleOf(links, 600 * kMillis), links, subject, Unclamped(), measured),
-      "no data from the hand force sensor", concerns);
+  ExpectUnknown(estimator.Update(SampleOf(links, 600 * kNanosPerMilli), links, subject, Unclamped(),
+                                 measured),
+                "no data from the hand force sensor", concerns);
 }
 
 TEST(LoadEstimator, AppliesMeasuredFootForcesAtTheFeet) {
@@ -268,7 +269,7 @@ TEST(LoadEstimator, AppliesMeasuredFootForcesAtTheFeet) {
   ExpectUnknown(Estimate(Posed({}), LoadSettings(), nullptr, measured),
                 "measured ground force is inconsistent", IsLeg);
   // An old measurement is none.
-  measured.feet[kRight]->stamp_nanos = -600 * kMillis;
+  measured.feet[kRight]->stamp_nanos = -600 * kNanosPerMilli;
   EXPECT_FALSE(Estimate(Posed({}), LoadSettings(), nullptr, measured).forces.ground_is_measured);
 }
 
@@ -324,7 +325,7 @@ TEST(LoadEstimator, UsesExternalLoadsUnchangedWhileTheyAreValid) {
   EXPECT_EQ(LoadOf(fresh, jL5S1).reason, "no external load received for this joint");
   EXPECT_EQ(LoadOf(fresh, jLeftHip).load_class, LoadClass::kUnknown);
   const LoadResult& stale =
-      estimator.Update(SampleOf(links, 600 * kMillis), links, subject, settings, measured);
+      estimator.Update(SampleOf(links, 600 * kNanosPerMilli), links, subject, settings, measured);
   EXPECT_EQ(LoadOf(stale, jRightKnee).load_class, LoadClass::kUnknown);
   EXPECT_EQ(LoadOf(stale, jRightKnee).reason, "no more external loads received for this joint");
 }

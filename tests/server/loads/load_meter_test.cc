@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/system/clocks.h"
+
 namespace kinescope::loads {
 namespace {
-
-constexpr std::int64_t kMillis = 1'000'000;
 
 char Letter(LoadClass load_class) { return "?GOR"[static_cast<int>(load_class)]; }
 
@@ -21,7 +21,7 @@ TEST(LoadMeter, FollowsTheReferenceSequenceOfTheHysteresisWithoutDelays) {
   std::string classes;
   std::int64_t now = 0;
   for (const double ratio : {.10, .29, .31, .27, .24, .61, .58, .54, .20, .70, .50, .20}) {
-    const LoadMeter::Reading shown = meter.Update(ratio, now += 10 * kMillis);
+    const LoadMeter::Reading shown = meter.Update(ratio, now += 10 * kNanosPerMilli);
     EXPECT_DOUBLE_EQ(shown.ratio, ratio);
     classes += Letter(shown.load_class);
   }
@@ -35,7 +35,7 @@ std::vector<LoadMeter::Reading> ReadingsOf(double before, double peak, int peak_
   std::vector<LoadMeter::Reading> readings;
   for (int now = -1000; now <= 3000; now += step_millis) {
     const double ratio = now < 0 ? before : now < peak_millis ? peak : after;
-    const LoadMeter::Reading shown = meter.Update(ratio, now * kMillis);
+    const LoadMeter::Reading shown = meter.Update(ratio, now * kNanosPerMilli);
     if (now >= 0) readings.push_back(shown);
   }
   return readings;
@@ -72,7 +72,7 @@ TEST(LoadMeter, NeverShowsARatioOutsideItsClassByMoreThanTheHysteresis) {
   for (int i = 0; i < 100'000; ++i) {
     ratio = std::abs(ratio + step(random));
     if (ratio > 1.2) ratio = 0.2;
-    const LoadMeter::Reading shown = meter.Update(ratio, i * 8 * kMillis);
+    const LoadMeter::Reading shown = meter.Update(ratio, i * 8 * kNanosPerMilli);
     const auto index = static_cast<std::size_t>(shown.load_class);
     const double from[] = {0, 0, 0.25, 0.55}, to[] = {0, 0.30, 0.60, 9};
     ASSERT_NE(index, 0U);
@@ -88,7 +88,7 @@ TEST(LoadMeter, ShowsEverySampleAsItIsIfMomentary) {
   std::string classes;
   std::int64_t now = 0;
   for (const double ratio : {.70, .30, .31, .60, .61, .10}) {
-    const LoadMeter::Reading shown = meter.Update(ratio, now += 10 * kMillis);
+    const LoadMeter::Reading shown = meter.Update(ratio, now += 10 * kNanosPerMilli);
     EXPECT_EQ(shown.ratio, ratio);
     classes += Letter(shown.load_class);
   }
@@ -98,18 +98,18 @@ TEST(LoadMeter, ShowsEverySampleAsItIsIfMomentary) {
 TEST(LoadMeter, ReportsMissingDataAsUnknownAndRestartsAfterwards) {
   LoadMeter meter;
   EXPECT_EQ(meter.Update(0.9, 0).load_class, LoadClass::kHigh);
-  const LoadMeter::Reading unknown = meter.Update(std::nan(""), 10 * kMillis);
+  const LoadMeter::Reading unknown = meter.Update(std::nan(""), 10 * kNanosPerMilli);
   EXPECT_EQ(unknown.load_class, LoadClass::kUnknown);
   EXPECT_TRUE(std::isnan(unknown.ratio));
-  EXPECT_EQ(meter.Update(0.1, 20 * kMillis).load_class, LoadClass::kLow);
-  EXPECT_EQ(meter.Update(0.1, 30 * kMillis).ratio, 0.1);
+  EXPECT_EQ(meter.Update(0.1, 20 * kNanosPerMilli).load_class, LoadClass::kLow);
+  EXPECT_EQ(meter.Update(0.1, 30 * kNanosPerMilli).ratio, 0.1);
 }
 
 TEST(LoadMeter, RestartsAfterAGapOrABackwardTimeStep) {
   LoadMeter meter;
   EXPECT_EQ(meter.Update(0.9, 0).load_class, LoadClass::kHigh);
-  EXPECT_EQ(meter.Update(0.1, 600 * kMillis).load_class, LoadClass::kLow);
-  EXPECT_EQ(meter.Update(0.9, 100 * kMillis).load_class, LoadClass::kHigh);
+  EXPECT_EQ(meter.Update(0.1, 600 * kNanosPerMilli).load_class, LoadClass::kLow);
+  EXPECT_EQ(meter.Update(0.9, 100 * kNanosPerMilli).load_class, LoadClass::kHigh);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr double kRate = 240;
-constexpr double kPeriod = 1e9 / kRate;
+constexpr double kSamplePeriod = 1e9 / kRate;
 constexpr std::int64_t kEpoch = 1'700'000'000'000'000'000;
 constexpr std::int64_t kBoot = 1'000'000'000'000;
 
@@ -50,7 +50,7 @@ TEST_F(ClockFitTest, RemovesNetworkJitterFromTimeStamps) {
   double last_arrival = 0;
   std::int64_t last_stamp = 0;
   for (std::uint32_t counter = 0; counter < 20 * 240; ++counter) {
-    const double sent = counter * kPeriod;
+    const double sent = counter * kSamplePeriod;
     const double arrival = std::max(sent + Delay(), last_arrival);  // no overtaking
     const std::int64_t stamp = Stamp(counter, arrival);
     if (counter > 5 * 240) {
@@ -71,7 +71,7 @@ TEST_F(ClockFitTest, FollowsASenderWhoseClockDrifts) {
   constexpr double kDrift = 100e-6;
   double error = 0;
   for (std::uint32_t counter = 0; counter < 120 * 240; ++counter) {
-    const double sent = counter * kPeriod * (1 + kDrift);
+    const double sent = counter * kSamplePeriod * (1 + kDrift);
     error = static_cast<double>(Stamp(counter, sent + Delay()) - kEpoch) - sent;
     if (counter < 5 * 240) continue;  // the fit has not seen a fast way yet
     ASSERT_NEAR(error, 1e6, 1.5e6) << "at sample " << counter;
@@ -85,7 +85,7 @@ TEST_F(ClockFitTest, FollowsASenderThatIsSlowerThanItsTimeCode) {
     ClockFit fit;
     double worst_late = 0, worst_early = 0;
     for (std::uint32_t counter = 0; counter < 20 * 240; ++counter) {
-      const double sent = counter * kPeriod / speed;
+      const double sent = counter * kSamplePeriod / speed;
       const std::int64_t stamp = fit.Stamp(counter, MillisOf(counter), ArriveAt(sent + Delay()));
       if (sent < 1e9) continue;  // the fit has not seen how fast it is
       const double error = static_cast<double>(stamp - kEpoch) - sent;
@@ -99,9 +99,10 @@ TEST_F(ClockFitTest, FollowsASenderThatIsSlowerThanItsTimeCode) {
 
 TEST_F(ClockFitTest, ReturnsIncreasingTimeStampsNotAfterTheReceiveTime) {
   std::int64_t last_stamp = 0;
-  double last_arrival = 30 * kPeriod;  // the first thirty come in one burst, as MVN sends them
+  double last_arrival =
+      30 * kSamplePeriod;  // the first thirty come in one burst, as MVN sends them
   for (std::uint32_t counter = 0; counter < 2000; ++counter) {
-    const double arrival = std::max(counter * kPeriod + Delay(), last_arrival + 0.2e6);
+    const double arrival = std::max(counter * kSamplePeriod + Delay(), last_arrival + 0.2e6);
     const std::int64_t stamp = Stamp(counter, arrival);
     ASSERT_GT(stamp, last_stamp) << "at sample " << counter;
     ASSERT_LE(stamp, ArriveAt(arrival).wall_nanos) << "at sample " << counter;
@@ -112,41 +113,41 @@ TEST_F(ClockFitTest, ReturnsIncreasingTimeStampsNotAfterTheReceiveTime) {
 
 TEST_F(ClockFitTest, RestartsAfterThePauseOfASender) {
   std::uint32_t counter = 0;
-  for (; counter < 1000; ++counter) Stamp(counter, counter * kPeriod + Delay());
+  for (; counter < 1000; ++counter) Stamp(counter, counter * kSamplePeriod + Delay());
   const double pause = 3e9;  // its time code stood still meanwhile
   for (; counter < 1100; ++counter) {
-    const double arrival = counter * kPeriod + pause + Delay();
+    const double arrival = counter * kSamplePeriod + pause + Delay();
     const std::int64_t stamp = Stamp(counter, arrival);
-    EXPECT_NEAR(static_cast<double>(stamp - kEpoch), counter * kPeriod + pause, 40e6);
+    EXPECT_NEAR(static_cast<double>(stamp - kEpoch), counter * kSamplePeriod + pause, 40e6);
   }
 }
 
 TEST_F(ClockFitTest, RestartsWhenTheTimeCodeJumpsAgainstTheCounter) {
   std::uint32_t counter = 0;
-  for (; counter < 1000; ++counter) Stamp(counter, counter * kPeriod);
+  for (; counter < 1000; ++counter) Stamp(counter, counter * kSamplePeriod);
   for (; counter < 1100; ++counter) {
     const std::int64_t stamp =
-        fit_.Stamp(counter, MillisOf(counter) + 3'600'000, ArriveAt(counter * kPeriod));
-    EXPECT_NEAR(static_cast<double>(stamp - kEpoch), counter * kPeriod, 2e6);
+        fit_.Stamp(counter, MillisOf(counter) + 3'600'000, ArriveAt(counter * kSamplePeriod));
+    EXPECT_NEAR(static_cast<double>(stamp - kEpoch), counter * kSamplePeriod, 2e6);
   }
 }
 
 TEST_F(ClockFitTest, UsesTheReceiveTimeIfTheTimeCodeStandsStill) {
   for (std::uint32_t counter = 0; counter < 1000; ++counter) {
-    const Arrival arrival = ArriveAt(counter * kPeriod);
+    const Arrival arrival = ArriveAt(counter * kSamplePeriod);
     EXPECT_EQ(fit_.Stamp(counter, 0, arrival), arrival.wall_nanos);
   }
 }
 
 TEST_F(ClockFitTest, FollowsTheWallClockWhenItIsSet) {
   std::uint32_t counter = 0;
-  for (; counter < 1000; ++counter) Stamp(counter, counter * kPeriod);
+  for (; counter < 1000; ++counter) Stamp(counter, counter * kSamplePeriod);
   for (const std::int64_t step : {5'000'000'000, -5'000'000'000}) {
     wall_step_ += step;
     for (const std::uint32_t end = counter + 10; counter < end; ++counter) {
       const double error =
-          static_cast<double>(Stamp(counter, counter * kPeriod) - kEpoch - wall_step_) -
-          counter * kPeriod;
+          static_cast<double>(Stamp(counter, counter * kSamplePeriod) - kEpoch - wall_step_) -
+          counter * kSamplePeriod;
       EXPECT_NEAR(error, 0, 2e6);
     }
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/duration_histogram.h"
+#include "core/system/clocks.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/open.h"
 #include "server/subject/subject.h"
@@ -31,9 +32,8 @@ using testing::RandomSample;
 using testing::RandomValues;
 using testing::RawDatagram;
 
-constexpr std::int64_t kMilli = 1'000'000;
-constexpr std::int64_t kStartWall = 1'700'000'000'000 * kMilli;
-constexpr std::int64_t kStart = 5'000 * kMilli;  // monotonic
+constexpr std::int64_t kStartWall = 1'700'000'000'000 * kNanosPerMilli;
+constexpr std::int64_t kStartMonotonic = 5'000 * kNanosPerMilli;  // monotonic
 
 Endpoint Suit(std::uint8_t host = 20) {
   Endpoint endpoint;
@@ -57,7 +57,7 @@ class InspectionTest : public ::testing::Test {
  protected:
   void Send(const std::string& datagram, std::int64_t delay = 0, const Endpoint& from = Suit()) {
     const std::int64_t at = now_ + delay;
-    inspection_.OnDatagram({from, {}, datagram, {kStart + at, kStartWall + at}});
+    inspection_.OnDatagram({from, {}, datagram, {kStartMonotonic + at, kStartWall + at}});
   }
   void Send(const std::vector<std::string>& datagrams) {
     for (const std::string& datagram : datagrams) Send(datagram);
@@ -97,7 +97,7 @@ class InspectionTest : public ::testing::Test {
   RandomValues random_{11};
   NoTransport transport_;
   Inspection inspection_{false};
-  std::int64_t now_ = 0;  // since kStart
+  std::int64_t now_ = 0;  // since kStartMonotonic
 };
 
 const TypeReport& OfType(const CharacterReport& character, int type) {
@@ -346,12 +346,12 @@ TEST_F(InspectionTest, MeasuresJitterRelativeToTheFastestSamples) {
   for (std::uint32_t counter = 0; counter < 2400; counter += 24) {
     WaitFor(counter);
     for (const std::string& datagram : Frame(counter)) {
-      Send(datagram, counter % 240 == 120 ? 20 * kMilli : 0);
+      Send(datagram, counter % 240 == 120 ? 20 * kNanosPerMilli : 0);
     }
   }
   const CharacterReport character = Only();
   ASSERT_TRUE(character.delays);
-  EXPECT_LT(character.delays->median, kMilli) << "time codes are whole milliseconds";
+  EXPECT_LT(character.delays->median, kNanosPerMilli) << "time codes are whole milliseconds";
   EXPECT_NEAR(static_cast<double>(character.delays->p95), 20e6, 1e6);
   EXPECT_NEAR(static_cast<double>(character.delays->longest), 20e6, 1e6);
 }
@@ -372,7 +372,7 @@ TEST_F(InspectionTest, ReportsTheFirstPlaceOfEachFault) {
   const ErrorReport& most = report.errors[0];
   EXPECT_EQ(most.reason, Text(Reason::kIdZero));
   EXPECT_EQ(most.count, 3U);
-  EXPECT_EQ(most.at_nanos, 1000 * kMilli);
+  EXPECT_EQ(most.at_nanos, 1000 * kNanosPerMilli);
   EXPECT_EQ(most.sender, "192.168.1.20:51000");
   ASSERT_TRUE(most.where);
   EXPECT_EQ(most.where->value, 0);
@@ -516,7 +516,7 @@ TEST_F(InspectionTest, KeepsARealCharacterAmongManyDamagedHeaders) {
 TEST_F(InspectionTest, CountsCharactersBeyondSixtyFourWithoutKeepingThem) {
   for (int character = 0; character < 70; ++character) {
     for (std::uint32_t counter = 0; counter < 3; ++counter) {
-      now_ = character * kMilli + DueNanos(counter);
+      now_ = character * kNanosPerMilli + DueNanos(counter);
       Send(Frame(counter, MakeTypeSet({Type::kPose}), character));
     }
   }
@@ -530,9 +530,12 @@ TEST_F(InspectionTest, CompletesSamplesOfLiveStreamsByTime) {
   for (const std::int64_t at : {0, 1}) {
     const auto frame = Frame(static_cast<std::uint32_t>(1 + at), MakeTypeSet({Type::kPose}));
     live.OnDatagram(
-        {Suit(), {}, frame[0], {kStart + at * 5 * kMilli, kStartWall + at * 5 * kMilli}});
+        {Suit(),
+         {},
+         frame[0],
+         {kStartMonotonic + at * 5 * kNanosPerMilli, kStartWall + at * 5 * kNanosPerMilli}});
   }
-  live.Expire(kStart + 10'000 * kMilli);
+  live.Expire(kStartMonotonic + 10'000 * kNanosPerMilli);
   const InspectionReport report = live.Report(NoTransport(true));
   ASSERT_EQ(report.characters.size(), 1U);
   EXPECT_EQ(report.characters[0].samples, 2U);

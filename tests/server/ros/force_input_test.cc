@@ -160,12 +160,12 @@ TEST(ExternalEfforts, UseTheAxesOfHumanGazeboUnderItsJointNames) {
     ASSERT_LT(child_at(angles).angularDistance(world_from_child), 1e-9);
     sensor_msgs::JointState message;
     for (int axis = 0; axis < 3; ++axis) {
-      constexpr double kStep = 1e-6;
-      const AngleAxisd moved(child_at(angles + kStep * Vector3d::Unit(axis)) *
+      constexpr double kTinyTurn = 1e-6;
+      const AngleAxisd moved(child_at(angles + kTinyTurn * Vector3d::Unit(axis)) *
                              child_at(angles).conjugate());
       message.name.push_back(std::string(urdf::kJoints[At(joint)].mvn_name) + "_rot" +
                              static_cast<char>('x' + axis));
-      message.effort.push_back(moment.dot(moved.axis() * moved.angle()) / kStep);
+      message.effort.push_back(moment.dot(moved.axis() * moved.angle()) / kTinyTurn);
     }
     const auto loads = ToExternalLoads(message, body, 1);
     ASSERT_TRUE(loads);

@@ -28,12 +28,12 @@ Vector3d RowAt(const std::vector<double>& values, int joint) {
   return {row[0], row[1], row[2]};
 }
 
-PersonState Person() {
+PersonState StandingPerson() {
   return testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 2'000'000'003);
 }
 
 TEST(JointStates, ContainTheAnglesOfThePoses) {
-  const PersonState person = Person();
+  const PersonState person = StandingPerson();
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
   EXPECT_EQ(message.header.stamp, ros::Time(2, 3));
@@ -46,7 +46,7 @@ TEST(JointStates, ContainTheAnglesOfThePoses) {
 }
 
 TEST(JointStates, HaveNoVelocitiesIfNoneWereMeasured) {
-  PersonState person = Person();
+  PersonState person = StandingPerson();
   sensor_msgs::JointState message;
   person.sample.has_angular = true;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
@@ -72,7 +72,7 @@ void MeasureRates(const urdf::JointAngles& before, const urdf::JointAngles& afte
 
 TEST(JointStates, HaveVelocitiesThatAreTheDerivativesOfThePositions) {
   const double dt = 1e-5;
-  PersonState person = Person();
+  PersonState person = StandingPerson();
   const urdf::JointAngles rates = testing::Posture(0.4);
   urdf::JointAngles before = person.angles;
   urdf::JointAngles after = person.angles;
@@ -102,7 +102,7 @@ TEST(JointStates, HaveFiniteVelocitiesInGimbalLock) {
 }
 
 TEST(JointStates, HaveTheMomentAboutEachAxisAsEffortOrNaNIfUnknown) {
-  const PersonState person = Person();
+  const PersonState person = StandingPerson();
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
   ASSERT_EQ(message.effort.size(), 66U);
@@ -126,7 +126,7 @@ TEST(JointStates, HaveTheMomentAboutEachAxisAsEffortOrNaNIfUnknown) {
 }
 
 TEST(JointStates, HaveEffortsIndependentOfPositionAndHeading) {
-  const PersonState person = Person();
+  const PersonState person = StandingPerson();
   PersonState moved = person;
   const Quaterniond turn(AngleAxisd(2.1, Vector3d(0.3, -0.5, 0.8).normalized()));
   for (urdf::Pose& link : moved.links) {
@@ -144,7 +144,7 @@ TEST(JointStates, HaveEffortsIndependentOfPositionAndHeading) {
 }
 
 TEST(JointStates, HaveNoEffortsIfNoLoadIsKnown) {
-  PersonState person = Person();
+  PersonState person = StandingPerson();
   MakeUnknown("flight", person.forces);
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
@@ -180,7 +180,7 @@ Quaterniond LinkFromMvn(int segment) {
 }
 
 TEST(JointStates, HaveStreamedAnglesEqualToComputedOnesExceptAtWristsAndBallsOfTheFeet) {
-  PersonState person = Person();
+  PersonState person = StandingPerson();
   auto& streamed = person.sample.streamed_angles_deg.emplace();
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     const Quaterniond parent =
@@ -224,7 +224,7 @@ TEST(JointStates, HaveStreamedAnglesInTheConventionOfXsensMvnRos) {
 }
 
 TEST(JointStates, AreNotFilledFromMissingStreamedAngles) {
-  PersonState person = Person();
+  PersonState person = StandingPerson();
   sensor_msgs::JointState message;
   EXPECT_FALSE(FillStreamedJointStates(person, PersonNames("skeleton"), message));
   EXPECT_TRUE(message.position.empty());

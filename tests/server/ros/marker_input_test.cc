@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "core/system/clocks.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
 using visualization_msgs::Marker;
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 Marker Cube(int id, double x = 0) {
   Marker marker;
@@ -147,10 +147,10 @@ TEST(MarkerStore, RemovesMarkersAfterTheirLifetimeUnlessTheyAreSentAgain) {
   brief.lifetime = ros::Duration(2);
   EXPECT_FALSE(store.Apply(0, brief, 0));
   ASSERT_TRUE(store.Update(0, cart.Find()));
-  EXPECT_FALSE(store.Apply(0, brief, kSecond));
-  EXPECT_FALSE(store.Update(2 * kSecond, cart.Find()));
+  EXPECT_FALSE(store.Apply(0, brief, kNanosPerSecond));
+  EXPECT_FALSE(store.Update(2 * kNanosPerSecond, cart.Find()));
   EXPECT_EQ(store.markers().size(), 1u);
-  ASSERT_TRUE(store.Update(3 * kSecond, cart.Find()));
+  ASSERT_TRUE(store.Update(3 * kNanosPerSecond, cart.Find()));
   EXPECT_TRUE(store.markers().empty());
 }
 
@@ -165,7 +165,7 @@ TEST(MarkerStore, MovesOnlyLockedMarkersWithTheirFrame) {
   EXPECT_FALSE(store.Apply(0, locked, 0));
   EXPECT_FALSE(store.Apply(0, still, 0));
   ASSERT_TRUE(store.Update(0, cart.Find()));
-  EXPECT_EQ(cart.asked, (std::vector<std::int64_t>{0, 5 * kSecond}));
+  EXPECT_EQ(cart.asked, (std::vector<std::int64_t>{0, 5 * kNanosPerSecond}));
   cart.x = 4;
   ASSERT_TRUE(store.Update(0, cart.Find()));
   EXPECT_DOUBLE_EQ(X(store, 0), 4);
@@ -186,7 +186,7 @@ TEST(MarkerStore, WaitsForAnUnknownFrameAndNamesItOnce) {
   EXPECT_NE(lost[0].text.find("'cart'"), std::string::npos) << lost[0].text;
   EXPECT_EQ(cart.asked.size(), 1u) << "not at every sample";
   cart.x = 2;
-  ASSERT_TRUE(store.Update(kSecond, cart.Find()));
+  ASSERT_TRUE(store.Update(kNanosPerSecond, cart.Find()));
   EXPECT_DOUBLE_EQ(X(store), 2);
   EXPECT_TRUE(store.TakeLost().empty());
 }

@@ -12,7 +12,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-PersonState Person() {
+PersonState MarkedPerson() {
   return testing::MakePerson(testing::MakeModel("skeleton", 1.6), testing::Posture(1), 5, 7);
 }
 
@@ -31,11 +31,11 @@ void ExpectColor(const Rgb& rgb, const Marker& marker) {
 }
 
 TEST(Markers, ShowEveryLoadAsThePictureDoes) {
-  const PersonState person = Person();
+  const PersonState person = MarkedPerson();
   const auto message = Of(person);
   ASSERT_EQ(message.markers.size(), person.loads.size() + 2);
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    const JointLoad& load = person.loads[i];
+    const kinescope::JointLoad& load = person.loads[i];
     const Marker& marker = message.markers[i];
     EXPECT_EQ(marker.ns, "loads");
     EXPECT_EQ(marker.id, load.joint);
@@ -50,7 +50,7 @@ TEST(Markers, ShowEveryLoadAsThePictureDoes) {
 }
 
 TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
-  const PersonState person = Person();
+  const PersonState person = MarkedPerson();
   const PersonNames names("skeleton");
   const auto free = Of(person, MarkerFrames::kReference);
   const auto locked = Of(person, MarkerFrames::kLinks);
@@ -74,7 +74,7 @@ TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
 }
 
 TEST(Markers, HaveALifetimeSoThatOldOnesDisappear) {
-  const auto message = Of(Person());
+  const auto message = Of(MarkedPerson());
   for (const Marker& marker : message.markers) {
     EXPECT_EQ(marker.action, Marker::ADD);
     EXPECT_EQ(marker.lifetime.toSec(), kMarkerLifetime);
@@ -82,7 +82,7 @@ TEST(Markers, HaveALifetimeSoThatOldOnesDisappear) {
 }
 
 TEST(Markers, AreNotKeptFromAnEarlierSample) {
-  PersonState person = Person();
+  PersonState person = MarkedPerson();
   auto message = Of(person);
   person.cop.reset();
   person.loads.pop_back();
@@ -92,7 +92,7 @@ TEST(Markers, AreNotKeptFromAnEarlierSample) {
 }
 
 TEST(Markers, AreGreySmallAndPermanentAfterTheStreamStopped) {
-  const PersonState person = Person();
+  const PersonState person = MarkedPerson();
   auto message = Of(person);
   MakeStale(*person.model, message);
   for (const Marker& marker : message.markers) {

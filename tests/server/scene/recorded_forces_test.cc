@@ -21,7 +21,6 @@ using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::ReadScenes;
-using testing::Scenes;
 using testing::TempFolder;
 using wrenches::testing::kHeader;
 using wrenches::testing::WriteText;
@@ -34,7 +33,7 @@ std::string RowOf(double secs, const char* body, const Vector3d& force, const Ve
 }
 
 /// The computed forces on both feet, as a file of measured ones.
-std::string FeetOf(const Scenes& scenes) {
+std::string FeetOf(const testing::Scenes& scenes) {
   std::string rows = kHeader;
   for (const auto& scene : scenes) {
     const FootForce& right = scene->people[0].forces.feet[urdf::kRight];
@@ -70,8 +69,8 @@ double FarthestMoment(const PersonState& a, const PersonState& b) {
 }
 
 TEST_F(RecordedForcesTest, ComputedForcesOfTheFeetMeasuredAgainGiveTheSameLoadsOfTheLegs) {
-  const Scenes computed = ReadScenes("demo:lift", 3, {});
-  const Scenes measured = ReadScenes("demo:lift", 3, OptionsWith(FeetOf(computed)));
+  const testing::Scenes computed = ReadScenes("demo:lift", 3, {});
+  const testing::Scenes measured = ReadScenes("demo:lift", 3, OptionsWith(FeetOf(computed)));
   ASSERT_EQ(measured.size(), computed.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const PersonState& person = measured[i]->people[0];
@@ -85,14 +84,14 @@ TEST_F(RecordedForcesTest, ComputedForcesOfTheFeetMeasuredAgainGiveTheSameLoadsO
 
 // The same forces with 20 % more on both feet do not fit the motion.
 TEST_F(RecordedForcesTest, ForcesThatDoNotFitTheMotionLeaveTheLegsUnknown) {
-  Scenes computed = ReadScenes("demo:n_pose", 0.2, {});
+  testing::Scenes computed = ReadScenes("demo:n_pose", 0.2, {});
   std::string rows = FeetOf(computed);
   const SceneOptions doubled = [&] {
     SceneOptions options = OptionsWith(rows);
     options.body.mass_kg = 60;
     return options;
   }();
-  const Scenes measured = ReadScenes("demo:n_pose", 0.2, doubled);
+  const testing::Scenes measured = ReadScenes("demo:n_pose", 0.2, doubled);
   EXPECT_EQ(measured[5]->people[0].forces.why_no_ground,
             "the measured ground force is inconsistent with the motion");
 }
@@ -108,8 +107,8 @@ TEST_F(RecordedForcesTest, AForceOnAHandIsWhatAMassInTheHandWeighs) {
   }
   SceneOptions pulled = OptionsWith(rows);
   pulled.loads.motion.dynamic = false;
-  const Scenes expected = ReadScenes("demo:lift", 1, held);
-  const Scenes actual = ReadScenes("demo:lift", 1, pulled);
+  const testing::Scenes expected = ReadScenes("demo:lift", 1, held);
+  const testing::Scenes actual = ReadScenes("demo:lift", 1, pulled);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const BodyForces& forces = actual[i]->people[0].forces;
     EXPECT_TRUE(forces.hands[urdf::kLeft].is_measured);
@@ -123,7 +122,7 @@ TEST_F(RecordedForcesTest, AForceOnAHandIsWhatAMassInTheHandWeighs) {
 }
 
 TEST_F(RecordedForcesTest, AGapInTheFileIsAGapInTheMeasurement) {
-  const Scenes computed = ReadScenes("demo:n_pose", 1, {});
+  const testing::Scenes computed = ReadScenes("demo:n_pose", 1, {});
   std::string rows = kHeader;
   for (int i = 0; i <= 100; ++i) {
     const double secs = 0.01 * i;
@@ -134,7 +133,7 @@ TEST_F(RecordedForcesTest, AGapInTheFileIsAGapInTheMeasurement) {
     rows += RowOf(secs, "LeftFoot", left.force, left.cop, Vector3d::Zero());
     rows += fmt::format("{},RightHand,1,0,0,,,,0,0,0\n", secs);
   }
-  const Scenes scenes = ReadScenes("demo:n_pose", 1, OptionsWith(rows));
+  const testing::Scenes scenes = ReadScenes("demo:n_pose", 1, OptionsWith(rows));
   for (const auto& scene : scenes) {
     const double secs = Secs(scene->stamp_nanos - scenes.front()->stamp_nanos);
     const PersonState& person = scene->people[0];
@@ -149,7 +148,7 @@ TEST_F(RecordedForcesTest, AGapInTheFileIsAGapInTheMeasurement) {
 }
 
 TEST_F(RecordedForcesTest, CsvAndMotOfTheSameForcesGiveTheSameLoads) {
-  const Scenes computed = ReadScenes("demo:lift", 1, {});
+  const testing::Scenes computed = ReadScenes("demo:lift", 1, {});
   std::string rows =
       "feet\nnRows=" + std::to_string(computed.size()) + "\nnColumns=19\nendheader\ntime";
   for (const char* side : {"r", "l"}) {
@@ -169,8 +168,8 @@ TEST_F(RecordedForcesTest, CsvAndMotOfTheSameForcesGiveTheSameLoads) {
     }
     rows += '\n';
   }
-  const Scenes of_csv = ReadScenes("demo:lift", 1, OptionsWith(FeetOf(computed)));
-  const Scenes of_mot = ReadScenes("demo:lift", 1, OptionsWith(rows, "forces.mot"));
+  const testing::Scenes of_csv = ReadScenes("demo:lift", 1, OptionsWith(FeetOf(computed)));
+  const testing::Scenes of_mot = ReadScenes("demo:lift", 1, OptionsWith(rows, "forces.mot"));
   for (std::size_t i = 0; i < of_csv.size(); ++i) {
     EXPECT_TRUE(of_mot[i]->people[0].forces.ground_is_measured);
     EXPECT_LT(FarthestMoment(of_csv[i]->people[0], of_mot[i]->people[0]), 1e-9);
@@ -178,7 +177,7 @@ TEST_F(RecordedForcesTest, CsvAndMotOfTheSameForcesGiveTheSameLoads) {
 }
 
 TEST_F(RecordedForcesTest, TheTotalUnderBothFeetCountsAsWell) {
-  const Scenes computed = ReadScenes("demo:lift", 1, {});
+  const testing::Scenes computed = ReadScenes("demo:lift", 1, {});
   std::string rows = kHeader;
   for (const auto& scene : computed) {
     const PersonState& person = scene->people[0];
@@ -186,7 +185,7 @@ TEST_F(RecordedForcesTest, TheTotalUnderBothFeetCountsAsWell) {
     rows += RowOf(secs, "Ground", person.forces.ground_force, *person.cop,
                   {0, 0, person.forces.ground_free_moment});
   }
-  const Scenes measured = ReadScenes("demo:lift", 1, OptionsWith(rows));
+  const testing::Scenes measured = ReadScenes("demo:lift", 1, OptionsWith(rows));
   for (std::size_t i = 0; i < measured.size(); ++i) {
     EXPECT_TRUE(measured[i]->people[0].forces.ground_is_measured);
     EXPECT_LT(FarthestMoment(measured[i]->people[0], computed[i]->people[0]), 0.01);

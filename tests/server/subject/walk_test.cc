@@ -12,8 +12,8 @@ using testing::FootOf;
 using testing::FootPoints;
 using testing::Index;
 
-constexpr double kLapSecs = 2 * M_PI * 1.5 / 1.2;
-constexpr double kStrideSecs = kLapSecs / 7;
+constexpr double kWholeLapSecs = 2 * M_PI * 1.5 / 1.2;
+constexpr double kStrideSecs = kWholeLapSecs / 7;
 constexpr double kFrameSecs = 2e-3;
 
 TEST(Walk, KeepsTheContactPointOfTheFootFixed) {
@@ -22,7 +22,7 @@ TEST(Walk, KeepsTheContactPointOfTheFootFixed) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     std::optional<Vector3d> heel, tip;  // where it came down, while it is down
     int contacts = 0;
-    for (double t = 0; t < kLapSecs; t += kFrameSecs) {
+    for (double t = 0; t < kWholeLapSecs; t += kFrameSecs) {
       const FootPoints foot = FootOf(motion->At(t), skeleton, side);
       for (auto [point, held] : {std::pair{&foot.heel, &heel}, std::pair{&foot.tip, &tip}}) {
         if (point->z() > 1e-9) {
@@ -44,7 +44,7 @@ TEST(Walk, HasAFootOnTheFloorAlwaysAndBothForAQuarterOfTheTime) {
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   int both = 0;
   int frames = 0;
-  for (double t = 0; t < kLapSecs; t += kFrameSecs, ++frames) {
+  for (double t = 0; t < kWholeLapSecs; t += kFrameSecs, ++frames) {
     const BodySample sample = motion->At(t);
     const bool right = FootOf(sample, skeleton, urdf::kRight).lowest() < 1e-6;
     const bool left = FootOf(sample, skeleton, urdf::kLeft).lowest() < 1e-6;
@@ -71,7 +71,7 @@ TEST(Walk, StartsContactWithTheHeelAndEndsItWithTheToes) {
 TEST(Walk, CirclesTheOriginAtItsSpeedAndReturns) {
   const auto motion = MakeMotion("walk");
   double way = 0;
-  for (double t = 0; t < kLapSecs; t += kFrameSecs) {
+  for (double t = 0; t < kWholeLapSecs; t += kFrameSecs) {
     const SegmentState pelvis = motion->At(t).segments[urdf::kPelvis];
     const double radius = pelvis.position.head<2>().norm();
     ASSERT_NEAR(radius, 1.5, 0.05) << "at " << t;
@@ -79,9 +79,9 @@ TEST(Walk, CirclesTheOriginAtItsSpeedAndReturns) {
     ASSERT_NEAR(pelvis.velocity.head<2>().norm(), 1.2, 0.30) << "at " << t;
     way += pelvis.velocity.head<2>().norm() * kFrameSecs;
   }
-  EXPECT_NEAR(way / kLapSecs, 1.2, 0.03);
+  EXPECT_NEAR(way / kWholeLapSecs, 1.2, 0.03);
   const BodySample start = motion->At(0.25);
-  const BodySample lap_later = motion->At(0.25 + kLapSecs);
+  const BodySample lap_later = motion->At(0.25 + kWholeLapSecs);
   for (std::size_t i = 0; i < start.segments.size(); ++i) {
     EXPECT_LT((start.segments[i].position - lap_later.segments[i].position).norm(), 1e-9);
     EXPECT_LT((start.segments[i].acceleration - lap_later.segments[i].acceleration).norm(), 1e-6);

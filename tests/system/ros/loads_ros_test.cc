@@ -25,23 +25,21 @@
 namespace kinescope {
 namespace {
 
-using kinescope_ros::JointLoad;
-using kinescope_ros::JointLoadArray;
-
 class LoadsOverRos : public testing::RosProgram {
  protected:
   static constexpr std::int32_t kPatienceMillis = std::chrono::milliseconds(kPatience).count();
 
   void StartBridge(const std::string& source) {
     program_ = Start("bridge --ros required --mass 70 --source " + source);
-    Hear<JointLoadArray>("/kinescope/joint_loads", [this](const auto& m) { loads_ = m; });
+    Hear<kinescope_ros::JointLoadArray>("/kinescope/joint_loads",
+                                        [this](const auto& m) { loads_ = m; });
     Hear<sensor_msgs::JointState>("/kinescope/joint_states",
                                   [this](const auto& m) { joints_ = m; });
     ASSERT_TRUE(Spin([&] { return loads_ && joints_; })) << "nothing is published";
   }
 
-  const JointLoad& LoadOf(const std::string& joint) const {
-    for (const JointLoad& load : loads_->loads) {
+  const kinescope_ros::JointLoad& LoadOf(const std::string& joint) const {
+    for (const kinescope_ros::JointLoad& load : loads_->loads) {
       if (load.joint == joint) return load;
     }
     throw std::out_of_range(joint);
@@ -68,7 +66,7 @@ class LoadsOverRos : public testing::RosProgram {
   }
 
   std::unique_ptr<testing::Process> program_;
-  std::optional<JointLoadArray> loads_;
+  std::optional<kinescope_ros::JointLoadArray> loads_;
   std::optional<sensor_msgs::JointState> joints_;
 };
 
@@ -158,12 +156,15 @@ TEST_F(LoadsOverRos, UseExternalLoadsPerJointWhileTheyArrive) {
     message.effort = {0, 0, -70, 1};  // the arm lies along y there: it bends about z
     return message;
   };
+  ASSERT_TRUE(Answer(other, say, [&] {
+    return LoadOf("jRightElbow").load_class == kinescope_ros::JointLoad::HIGH;
+  }));
+  EXPECT_EQ(LoadOf("jRightElbow").source, kinescope_ros::JointLoad::EXTERNAL);
+  EXPECT_EQ(LoadOf("jLeftElbow").source, kinescope_ros::JointLoad::COMPUTED);
   ASSERT_TRUE(
-      Answer(other, say, [&] { return LoadOf("jRightElbow").load_class == JointLoad::HIGH; }));
-  EXPECT_EQ(LoadOf("jRightElbow").source, JointLoad::EXTERNAL);
-  EXPECT_EQ(LoadOf("jLeftElbow").source, JointLoad::COMPUTED);
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").source == JointLoad::COMPUTED; }));
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").load_class == JointLoad::LOW; }));
+      Spin([&] { return LoadOf("jRightElbow").source == kinescope_ros::JointLoad::COMPUTED; }));
+  ASSERT_TRUE(
+      Spin([&] { return LoadOf("jRightElbow").load_class == kinescope_ros::JointLoad::LOW; }));
 }
 
 TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
@@ -172,7 +173,8 @@ TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
     for (const auto& marker : message.markers) held.insert(marker.ns);
   });
   StartBridge("demo:t_pose");
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").load_class == JointLoad::LOW; }));
+  ASSERT_TRUE(
+      Spin([&] { return LoadOf("jRightShoulder").load_class == kinescope_ros::JointLoad::LOW; }));
   EXPECT_EQ(held.count("hand_loads"), 0u);
   kinescope_ros::SetHandLoad order;
   order.request.right_kg = 500;
@@ -184,8 +186,9 @@ TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
   EXPECT_TRUE(order.response.success) << order.response.message;
   ASSERT_TRUE(Spin([&] { return loads_->held_mass[0] == 2; }));  // after its ramp
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").load_class == JointLoad::MEDIUM; }));
-  EXPECT_EQ(LoadOf("jLeftShoulder").load_class, JointLoad::LOW);
+  ASSERT_TRUE(Spin(
+      [&] { return LoadOf("jRightShoulder").load_class == kinescope_ros::JointLoad::MEDIUM; }));
+  EXPECT_EQ(LoadOf("jLeftShoulder").load_class, kinescope_ros::JointLoad::LOW);
   // The same mass farther out is a larger moment.
   const double at_the_grip = LoadOf("jRightShoulder").ratio;
   order.request.right_com = {0, 0, -0.4};

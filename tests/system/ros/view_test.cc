@@ -25,7 +25,7 @@ namespace {
 
 using http::testing::Fetch;
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kViewWidth = 320, kViewHeight = 240;
 constexpr char kFrame[] = "kinescope_view_camera_optical";
 
 Eigen::Isometry3d ToEigen(const geometry_msgs::Transform& transform) {
@@ -82,7 +82,7 @@ render::Image FloorAlone(const Eigen::Isometry3d& world_from_optical,
   camera.vertical_fov_rad = 2 * std::atan(0.5 * info.height / info.K[4]);
   SceneState nobody;
   nobody.liveness = Liveness::kLive;
-  return render::MakeRenderer()->Render(nobody, camera, {kWidth, kHeight, 1, "", false});
+  return render::MakeRenderer()->Render(nobody, camera, {kViewWidth, kViewHeight, 1, "", false});
 }
 
 TEST_F(ViewOverRos, ShowsEveryLinkAtItsFrameAccordingToTheCalibration) {
@@ -104,8 +104,8 @@ TEST_F(ViewOverRos, ShowsEveryLinkAtItsFrameAccordingToTheCalibration) {
   const sensor_msgs::CameraInfo& info = infos.at(image.header.stamp);
   EXPECT_EQ(image.header.frame_id, kFrame);
   EXPECT_EQ(info.header.frame_id, kFrame);
-  ASSERT_EQ(image.width, static_cast<std::uint32_t>(kWidth));
-  ASSERT_EQ(image.height, static_cast<std::uint32_t>(kHeight));
+  ASSERT_EQ(image.width, static_cast<std::uint32_t>(kViewWidth));
+  ASSERT_EQ(image.height, static_cast<std::uint32_t>(kViewHeight));
   EXPECT_EQ(info.width, image.width);
   const Eigen::Isometry3d& world_from_optical = frames.at(kFrame);
   const render::Image floor = FloorAlone(world_from_optical, info);
@@ -113,8 +113,8 @@ TEST_F(ViewOverRos, ShowsEveryLinkAtItsFrameAccordingToTheCalibration) {
     const Eigen::Vector3d seen = world_from_optical.inverse() * world;
     const long u = std::lround(info.P[0] * seen.x() / seen.z() + info.P[2]);
     const long v = std::lround(info.P[5] * seen.y() / seen.z() + info.P[6]);
-    if (u < 0 || v < 0 || u >= kWidth || v >= kHeight) return false;
-    const auto pixel = static_cast<std::size_t>(v * kWidth + u);
+    if (u < 0 || v < 0 || u >= kViewWidth || v >= kViewHeight) return false;
+    const auto pixel = static_cast<std::size_t>(v * kViewWidth + u);
     int difference = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       difference += std::abs(image.data[3 * pixel + k] - floor.rgba[4 * pixel + k]);
@@ -189,7 +189,7 @@ TEST_F(ViewOverRos, ShowsExternalMarkers) {
     const Eigen::Vector3d seen = frames_[stamp].at(kFrame).inverse() * middle;
     const long u = std::lround(info.P[0] * seen.x() / seen.z() + info.P[2]);
     const long v = std::lround(info.P[5] * seen.y() / seen.z() + info.P[6]);
-    const auto* pixel = &image.data.at(3 * static_cast<std::size_t>(v * kWidth + u));
+    const auto* pixel = &image.data.at(3 * static_cast<std::size_t>(v * kViewWidth + u));
     return pixel[0] > 120 && pixel[1] < 60 && pixel[2] < 60;
   };
   EXPECT_TRUE(Spin(is_red)) << Diagnostics("ros");

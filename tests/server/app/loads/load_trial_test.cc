@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/system/clocks.h"
 #include "server/app/loads/load_summary.h"
 #include "server/table/load_rows.h"
 #include "tests/server/app/loads/trial_scenes.h"
@@ -13,8 +14,6 @@ namespace {
 
 using testing::AddTo;
 using testing::SceneWithRatio;
-
-constexpr std::int64_t kMillis = 1'000'000;
 
 TEST(LoadTrial, FindsTheTimesOfTheHighestLoadsApartFromEachOther) {
   LoadTrial trial(false, 0);
@@ -32,7 +31,7 @@ TEST(LoadTrial, FindsTheTimesOfTheHighestLoadsApartFromEachOther) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       EXPECT_GE(std::abs(worst[i].scene->stamp_nanos - worst[k].scene->stamp_nanos),
-                1000 * kMillis);
+                1000 * kNanosPerMilli);
     }
   }
 }

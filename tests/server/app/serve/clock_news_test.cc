@@ -4,19 +4,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/system/clocks.h"
+
 namespace kinescope::app {
 namespace {
 
-constexpr std::int64_t kMilli = 1'000'000;
-
 // By how much the clock of /bridge_a is `ahead`, in ms, and its messages are delayed by 20 ms.
 NodeClock Ahead(std::int64_t ahead, std::int64_t uncertainty = 1) {
-  return {"/bridge_a", (20 - ahead) * kMilli, (45 - ahead) * kMilli,
-          NodeClock::Offset{ahead * kMilli, uncertainty * kMilli}, 0};
+  return {"/bridge_a", (20 - ahead) * kNanosPerMilli, (45 - ahead) * kNanosPerMilli,
+          NodeClock::Offset{ahead * kNanosPerMilli, uncertainty * kNanosPerMilli}, 0};
 }
 
 NodeClock Unasked(std::int64_t lag) {
-  return {"/xsens", lag * kMilli, (lag + 5) * kMilli, std::nullopt, 0};
+  return {"/xsens", lag * kNanosPerMilli, (lag + 5) * kNanosPerMilli, std::nullopt, 0};
 }
 
 TEST(ClockNews, WarnsOfAClockThatDiffersByMoreThanItsUncertainty) {
@@ -27,7 +27,7 @@ TEST(ClockNews, WarnsOfAClockThatDiffersByMoreThanItsUncertainty) {
             "the clock of /bridge_a is 150 ms behind the server's: synchronise both with chrony or "
             "NTP; until then its times are wrong by that");
   NodeClock corrected = Ahead(2980);
-  corrected.shift_nanos = -2980 * kMilli;
+  corrected.shift_nanos = -2980 * kNanosPerMilli;
   EXPECT_EQ(ClockWarning(corrected),
             "the clock of /bridge_a is 2.98 s ahead of the server's: synchronise both with chrony "
             "or NTP; until then its times are corrected here, and in nothing that it records or "
@@ -43,12 +43,12 @@ TEST(ClockNews, SaysThatTimesOfArrivalReplaceThoseOfAClockThatWasNeverSet) {
 
 TEST(ClockNews, SaysThatStampsAdvanceSlowly) {
   NodeClock clock = Ahead(0);
-  clock.excess_nanos = 2'410 * kMilli;
+  clock.excess_nanos = 2'410 * kNanosPerMilli;
   EXPECT_EQ(ClockWarning(clock),
             "the stamps of /bridge_a advance at 0.9 times the speed of time for 25 s more: they "
             "were ahead, and none may go back");
   EXPECT_EQ(ClockJson(clock)["excess_ms"], 2410.0);
-  clock.offset->nanos = -500 * kMilli;
+  clock.offset->nanos = -500 * kNanosPerMilli;
   EXPECT_EQ(ClockWarning(clock).find("the clock of /bridge_a is 500 ms behind"), 0U);
   EXPECT_NE(ClockWarning(clock).find("; the stamps of /bridge_a advance"), std::string::npos);
 }

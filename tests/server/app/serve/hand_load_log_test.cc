@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/clocks.h"
 #include "core/system/latest.h"
 #include "server/marks/mark_book.h"
 #include "tests/temp_folder.h"
@@ -16,8 +17,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 HandLoad InRightHand(double kilograms) {
   HandLoad load;
@@ -45,7 +44,7 @@ class HandLoadMarks : public ::testing::Test {
 
 TEST_F(HandLoadMarks, OfRosAreMarkedAsThoseOfOperatorsAre) {
   held_.OnOrder(0, "Ann", InRightHand(5), "operator");
-  held_.OnRos(0, "Ann", InRightHand(7), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(7), kNanosPerSecond);
   EXPECT_THAT(marks(), ElementsAre("operator: hand load of Ann: unknown → 5 kg right",
                                    "ros: hand load of Ann: 5 kg right → 7 kg right"));
   EXPECT_EQ(held_.all().at(0).by, "ROS");
@@ -53,21 +52,22 @@ TEST_F(HandLoadMarks, OfRosAreMarkedAsThoseOfOperatorsAre) {
 }
 
 TEST_F(HandLoadMarks, ThatComManyTimesASecondAreMarkedOnceASecondAndTheLastOneIs) {
-  for (int i = 1; i <= 250; ++i) held_.OnRos(0, "Ann", InRightHand(i), kSecond + i * kSecond / 100);
+  for (int i = 1; i <= 250; ++i)
+    held_.OnRos(0, "Ann", InRightHand(i), kNanosPerSecond + i * kNanosPerSecond / 100);
   EXPECT_THAT(marks(), ElementsAre("ros: hand load of Ann: unknown → 1 kg right",
                                    "ros: hand load of Ann: 1 kg right → 101 kg right",
                                    "ros: hand load of Ann: 101 kg right → 201 kg right"));
-  held_.OnTime(4 * kSecond);
+  held_.OnTime(4 * kNanosPerSecond);
   EXPECT_EQ(marks().size(), 3u) << "not a second later";
-  held_.OnTime(5 * kSecond);
-  held_.OnTime(9 * kSecond);
+  held_.OnTime(5 * kNanosPerSecond);
+  held_.OnTime(9 * kNanosPerSecond);
   ASSERT_EQ(marks().size(), 4u);
   EXPECT_EQ(marks().back(), "ros: hand load of Ann: 201 kg right → 250 kg right");
 }
 
 TEST_F(HandLoadMarks, ThatWaitAreMarkedBeforeThatOfAnOperator) {
-  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
-  held_.OnRos(0, "Ann", InRightHand(2), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(1), kNanosPerSecond);
+  held_.OnRos(0, "Ann", InRightHand(2), kNanosPerSecond);
   held_.OnOrder(0, "Ann", InRightHand(3), "operator");
   EXPECT_THAT(marks(), ElementsAre("ros: hand load of Ann: unknown → 1 kg right",
                                    "ros: hand load of Ann: 1 kg right → 2 kg right",
@@ -82,38 +82,39 @@ TEST_F(HandLoadMarks, HaveTheSampleAtWhichTheLoadCameNotThatOfTheMark) {
     states_.Publish(std::make_shared<const SceneState>(state));
   };
   publish(10);
-  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(1), kNanosPerSecond);
   publish(20);
-  held_.OnRos(0, "Ann", InRightHand(2), kSecond + 1);
+  held_.OnRos(0, "Ann", InRightHand(2), kNanosPerSecond + 1);
   publish(30);
-  held_.OnRos(0, "Ann", InRightHand(2), kSecond + 2);
+  held_.OnRos(0, "Ann", InRightHand(2), kNanosPerSecond + 2);
   publish(240);
-  held_.OnTime(2 * kSecond);
+  held_.OnTime(2 * kNanosPerSecond);
   const std::vector<marks::Mark> all = book_.ChangedAfter(0, 100);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[1].at.state, 20u);
 }
 
 TEST_F(HandLoadMarks, OfTheNoiseOfALoadCellAreNotMade) {
-  held_.OnRos(0, "Ann", InRightHand(5), kSecond);
-  for (int i = 2; i < 100; ++i) held_.OnRos(0, "Ann", InRightHand(5 + 0.0009 * i), i * kSecond);
+  held_.OnRos(0, "Ann", InRightHand(5), kNanosPerSecond);
+  for (int i = 2; i < 100; ++i)
+    held_.OnRos(0, "Ann", InRightHand(5 + 0.0009 * i), i * kNanosPerSecond);
   EXPECT_EQ(marks().size(), 1u);
-  held_.OnRos(0, "Ann", InRightHand(5.125), 100 * kSecond);
+  held_.OnRos(0, "Ann", InRightHand(5.125), 100 * kNanosPerSecond);
   ASSERT_EQ(marks().size(), 2u);
   EXPECT_EQ(marks().back(), "ros: hand load of Ann: 5 kg right → 5.125 kg right");
 }
 
 TEST_F(HandLoadMarks, ThatWaitAreMadeBeforeTheEnd) {
-  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
-  held_.OnRos(0, "Ann", InRightHand(2), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(1), kNanosPerSecond);
+  held_.OnRos(0, "Ann", InRightHand(2), kNanosPerSecond);
   held_.Flush();
   EXPECT_EQ(marks().size(), 2u);
 }
 
 TEST_F(HandLoadMarks, ThatAreAsBeforeAreNoChange) {
-  held_.OnRos(0, "Ann", HandLoad(), kSecond);
+  held_.OnRos(0, "Ann", HandLoad(), kNanosPerSecond);
   EXPECT_THAT(marks(), IsEmpty());
-  held_.OnRos(0, "Ann", InRightHand(1), kSecond);
+  held_.OnRos(0, "Ann", InRightHand(1), kNanosPerSecond);
   EXPECT_EQ(marks().size(), 1u) << "and nobody waits for it";
 }
 

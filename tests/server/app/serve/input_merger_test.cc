@@ -18,7 +18,7 @@ namespace {
 using urdf::kLeft;
 using urdf::kRight;
 
-HandLoad InRightHand(double mass_kg) {
+HandLoad HeldInRightHand(double mass_kg) {
   HandLoad load;
   load.is_known = true;
   load.mass_kg[kRight] = mass_kg;
@@ -72,7 +72,7 @@ TEST(HandLoads, ReachTheShoulderWithTheNextSamples) {
   Wired wired;
   wired.RunOneSecond();
   EXPECT_EQ(LoadOf(wired.last->people[0], urdf::jRightShoulder).load_class, LoadClass::kLow);
-  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(2)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, HeldInRightHand(2)), "");
   const PersonState& person = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(person, urdf::jRightShoulder).load_class, LoadClass::kMedium);
   EXPECT_EQ(LoadOf(person, urdf::jLeftShoulder).load_class, LoadClass::kLow);
@@ -82,7 +82,7 @@ TEST(HandLoads, ReachTheShoulderWithTheNextSamples) {
 
 TEST(HandLoads, ApplyToOnePersonOnly) {
   Wired wired;
-  EXPECT_EQ(wired.hand_loads.Put(1, InRightHand(3)), "");
+  EXPECT_EQ(wired.hand_loads.Put(1, HeldInRightHand(3)), "");
   const SceneState& scene = wired.RunOneSecond({0, 1});
   ASSERT_EQ(scene.people.size(), 2u);
   EXPECT_EQ(scene.people[0].forces.hands[kRight].mass_kg, 0);
@@ -97,7 +97,7 @@ TEST(HandLoads, OfOneHandReplaceThoseOfBothAndAreNotAdded) {
   EXPECT_EQ(wired.hand_loads.Put(0, both), "");
   const BodyForces held = wired.RunOneSecond().people[0].forces;
   EXPECT_NEAR(held.hands[kRight].mass_kg + held.hands[urdf::kLeft].mass_kg, 10, 1e-9);
-  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(5)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, HeldInRightHand(5)), "");
   const BodyForces& replaced = wired.RunOneSecond().people[0].forces;
   EXPECT_NEAR(replaced.hands[kRight].mass_kg, 5, 1e-9);
   EXPECT_NEAR(replaced.hands[urdf::kLeft].mass_kg, 0, 1e-9);
@@ -171,9 +171,9 @@ TEST(Changes, OfAPersonAreCheckedAsTheOptionsAre) {
 
 TEST(HandLoads, ChangeNothingIfTheyAreRejected) {
   Wired wired;
-  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(4)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, HeldInRightHand(4)), "");
   for (const double wrong : {500.0, -1.0, std::nan("")}) {
-    EXPECT_NE(wired.hand_loads.Put(0, InRightHand(wrong)), "") << wrong;
+    EXPECT_NE(wired.hand_loads.Put(0, HeldInRightHand(wrong)), "") << wrong;
   }
   EXPECT_EQ(wired.RunOneSecond().people[0].forces.hands[kRight].mass_kg, 4);
 }
@@ -203,7 +203,7 @@ class TellingBridge : public ros_bridge::RosBridge {
 TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
   TellingBridge bridge;
   Wired wired(&bridge);
-  bridge.load = InRightHand(2);
+  bridge.load = HeldInRightHand(2);
   wired.sink.OnSample(TPose(1));
   EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.alone_kg[kRight], 2);
 }
@@ -264,7 +264,7 @@ TEST(Measurements, LeaveAHandLoadUnknownAfterTheyStopUntilItIsSet) {
   const PersonState stopped = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(stopped, urdf::jRightElbow).load_class, LoadClass::kUnknown);
   EXPECT_NE(LoadOf(stopped, urdf::jRightElbow).reason, "");
-  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(0)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, HeldInRightHand(0)), "");
   const PersonState told = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(told, urdf::jRightElbow).load_class, LoadClass::kLow)
       << LoadOf(told, urdf::jRightElbow).reason;
@@ -288,7 +288,7 @@ TEST(Measurements, OfTheCentreOfPressureMoveItAndKeepTheComputedForce) {
 
 TEST(Exposure, IsContainedInTheStates) {
   Wired wired;
-  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(2)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, HeldInRightHand(2)), "");
   wired.RunOneSecond();
   const PersonState& person = wired.RunOneSecond().people[0];
   double sum = 0;

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/system/clocks.h"
 #include "server/app/serve/crowd_warning.h"
 #include "tests/captured_log.h"
 
 namespace kinescope::app {
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 SourceCounters DatagramsWithoutPose() {
   SourceCounters counters;
@@ -21,10 +20,10 @@ TEST(MissingPoseWarning, ReportsTheMostFrequentReasonOnceAfterTwoSeconds) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
   warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 0);
-  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 2 * kSecond - 1);
+  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 2 * kNanosPerSecond - 1);
   EXPECT_EQ(log.text(), "");
   for (int i = 2; i < 5; ++i) {
-    warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", i * kSecond);
+    warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", i * kNanosPerSecond);
   }
   EXPECT_EQ(log.text(),
             "warning: 240 datagrams from udp://:9763, but no complete pose: no MXTP id string. For "
@@ -48,7 +47,7 @@ TEST(MissingPoseWarning, CountsTheTimeFromTheFirstDatagrams) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
   warning.OnCounters(SourceCounters(), "udp://:9763", 0);
-  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 10 * kSecond);
+  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 10 * kNanosPerSecond);
   EXPECT_EQ(log.text(), "") << "a suit that was switched on now";
 }
 
@@ -58,8 +57,8 @@ TEST(MissingPoseWarning, IsAbsentWhileThereAreSamplesOrNoDatagrams) {
   SourceCounters fine = DatagramsWithoutPose();
   fine.samples = 1;
   for (int i = 0; i < 5; ++i) {
-    warning.OnCounters(SourceCounters(), "udp://:9763", i * kSecond);
-    warning.OnCounters(fine, "udp://:9763", i * kSecond);
+    warning.OnCounters(SourceCounters(), "udp://:9763", i * kNanosPerSecond);
+    warning.OnCounters(fine, "udp://:9763", i * kNanosPerSecond);
   }
   EXPECT_EQ(log.text(), "");
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/scene_state.h"
+#include "core/system/clocks.h"
 #include "tests/captured_log.h"
 
 namespace kinescope::app {
@@ -15,23 +16,22 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kMilli = 1'000'000;
-constexpr std::int64_t kBehind = 3700 * kMilli;
+constexpr std::int64_t kBehind = 3700 * kNanosPerMilli;
 
 TEST(Overload, KnowsHowLongASampleWaited) {
   BodySample sample;
-  sample.arrival_nanos = 5000 * kMilli;
-  EXPECT_EQ(Overload::WaitedNanos(sample, 8700 * kMilli), kBehind);
-  EXPECT_EQ(Overload::WaitedNanos(sample, 4999 * kMilli), 0);
+  sample.arrival_nanos = 5000 * kNanosPerMilli;
+  EXPECT_EQ(Overload::WaitedNanos(sample, 8700 * kNanosPerMilli), kBehind);
+  EXPECT_EQ(Overload::WaitedNanos(sample, 4999 * kNanosPerMilli), 0);
   sample.arrival_nanos = 0;
-  EXPECT_EQ(Overload::WaitedNanos(sample, 8700 * kMilli), 0) << "of a file";
+  EXPECT_EQ(Overload::WaitedNanos(sample, 8700 * kNanosPerMilli), 0) << "of a file";
 }
 
 // Of 240 samples that come at once, how many are processed.
 int Admitted(Overload& overload, std::int64_t waited) {
   int admitted = 0;
   for (int i = 0; i < 240; ++i) {
-    admitted += overload.Admit(0, waited, 9000 * kMilli + i * kMilli) ? 1 : 0;
+    admitted += overload.Admit(0, waited, 9000 * kNanosPerMilli + i * kNanosPerMilli) ? 1 : 0;
   }
   return admitted;
 }
@@ -52,7 +52,8 @@ TEST(Overload, ShowsEverybodyWhileItSkips) {
   std::map<int, int> admitted;
   for (int i = 0; i < 480; ++i) {
     const int character = i % 2;
-    if (overload.Admit(character, kBehind, 9000 * kMilli + i * kMilli)) ++admitted[character];
+    if (overload.Admit(character, kBehind, 9000 * kNanosPerMilli + i * kNanosPerMilli))
+      ++admitted[character];
   }
   EXPECT_EQ(admitted[0], 10);
   EXPECT_EQ(admitted[1], 10);
@@ -70,7 +71,7 @@ TEST(Overload, DoesNotFillTheLogOfAMachineAtItsLimit) {
   const testing::CapturedLog log;
   Overload overload(/*may_skip=*/true);
   for (int i = 0; i < 2000; ++i) {
-    (void)overload.Admit(0, i % 2 == 0 ? kBehind : 0, 9000 * kMilli + i * kMilli);
+    (void)overload.Admit(0, i % 2 == 0 ? kBehind : 0, 9000 * kNanosPerMilli + i * kNanosPerMilli);
   }
   const std::string text = log.text();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);

@@ -18,7 +18,7 @@ using http::testing::Fetch;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ServeConfig ConfigOf(testing::Settings settings) {
+ServeConfig ServeConfigOf(testing::Settings settings) {
   settings.insert(settings.end(), {{"source", "demo:t_pose"}, {"ros", "off"}});
   return MakeServeConfig(testing::With<ServeOptions>(settings), true);
 }
@@ -32,7 +32,7 @@ int PortIn(const testing::CapturedLog& log) {
 
 TEST(Server, AnswersBeforeItRunsAndReportsNullForPartsThatAreOff) {
   const testing::CapturedLog log;
-  const Server server(ConfigOf({{"http_port", "0"}, {"pictures", "off"}}));
+  const Server server(ServeConfigOf({{"http_port", "0"}, {"pictures", "off"}}));
   const int port = PortIn(log);
   const auto diagnostics = Fetch(port, "/api/v1/diagnostics").json();
   EXPECT_EQ(diagnostics.at("source").at("liveness"), "no data");
@@ -45,7 +45,8 @@ TEST(Server, AnswersBeforeItRunsAndReportsNullForPartsThatAreOff) {
 TEST(Server, LogsTheTokenWholeOnlyOnATerminal) {
   const testing::TempFolder folder;
   const std::string file = (folder.path() / "token").string();
-  ServeConfig config = ConfigOf({{"http_port", "0"}, {"pictures", "off"}, {"token_file", file}});
+  ServeConfig config =
+      ServeConfigOf({{"http_port", "0"}, {"pictures", "off"}, {"token_file", file}});
   const std::string token = config.page->token;
   {
     const testing::CapturedLog log;
@@ -71,10 +72,10 @@ TEST(Server, HasATokenForViewersBesideThatOfTheOperator) {
   const testing::TempFolder folder;
   const std::string file = (folder.path() / "token").string();
   const std::string viewer_file = (folder.path() / "viewer").string();
-  const ServeConfig config = ConfigOf({{"http_port", "0"},
-                                       {"pictures", "off"},
-                                       {"token_file", file},
-                                       {"viewer_token_file", viewer_file}});
+  const ServeConfig config = ServeConfigOf({{"http_port", "0"},
+                                            {"pictures", "off"},
+                                            {"token_file", file},
+                                            {"viewer_token_file", viewer_file}});
   const testing::CapturedLog log;
   const Server server(config);
   EXPECT_THAT(log.text(), HasSubstr("page for viewers at http://"));
@@ -90,7 +91,7 @@ TEST(Server, HasATokenForViewersBesideThatOfTheOperator) {
 TEST(Server, ExplainsATokenOfViewersThatCannotBeUsed) {
   const auto error_of = [](const testing::Settings& values) -> std::string {
     try {
-      ConfigOf(values);
+      ServeConfigOf(values);
     } catch (const UsageError& error) {
       return error.what();
     }
@@ -108,11 +109,12 @@ TEST(Server, ExplainsATokenOfViewersThatCannotBeUsed) {
 
 TEST(Server, RejectsAPortInUseAndLeavesTheFirstServerRunning) {
   const testing::CapturedLog log;
-  const Server first(ConfigOf({{"http_port", "0"}, {"picture_size", "64x48"}}));
+  const Server first(ServeConfigOf({{"http_port", "0"}, {"picture_size", "64x48"}}));
   const int port = PortIn(log);
   EXPECT_THAT(log.text(), HasSubstr("rendered by llvmpipe"));
   try {
-    const Server second(ConfigOf({{"http_port", std::to_string(port)}, {"picture_size", "64x48"}}));
+    const Server second(
+        ServeConfigOf({{"http_port", std::to_string(port)}, {"picture_size", "64x48"}}));
     ADD_FAILURE() << "two servers on one port";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr(std::to_string(port)));

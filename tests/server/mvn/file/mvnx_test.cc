@@ -47,7 +47,7 @@ RecordingSink ReadAll(Source& source) {
 }
 
 // The error of reading `text` to its end; "" if there is none.
-std::string ErrorOf(std::string text) {
+std::string ErrorOfMvnx(std::string text) {
   try {
     MvnxSource source = Open(text);
     ReadAll(source);
@@ -345,35 +345,36 @@ TEST(Mvnx, NeedsNoMoreMemoryForLargerFiles) {
 
 TEST(Mvnx, ReportsFileLineAndErrorOfAnInvalidFile) {
   const std::string good = SmallFile();
-  ASSERT_EQ(ErrorOf(good), "");
-  EXPECT_THAT(ErrorOf(Replaced(good, "version=\"4\"", "version=\"2\"")),
+  ASSERT_EQ(ErrorOfMvnx(good), "");
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "version=\"4\"", "version=\"2\"")),
               AllOf(HasSubstr("small.mvnx:3: "), HasSubstr("version '2'"), HasSubstr("3 and 4")));
-  EXPECT_THAT(ErrorOf("{\"json\": true}"), HasSubstr("not XML"));
-  EXPECT_THAT(ErrorOf("<robot name=\"x\"/>"), HasSubstr("begins with <robot>"));
-  EXPECT_THAT(ErrorOf("<mvnx version=\"4\"></mvnx>"), HasSubstr("<frames> is missing"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "segmentCount=\"23\"", "segmentCount=\"24\"")),
+  EXPECT_THAT(ErrorOfMvnx("{\"json\": true}"), HasSubstr("not XML"));
+  EXPECT_THAT(ErrorOfMvnx("<robot name=\"x\"/>"), HasSubstr("begins with <robot>"));
+  EXPECT_THAT(ErrorOfMvnx("<mvnx version=\"4\"></mvnx>"), HasSubstr("<frames> is missing"));
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "segmentCount=\"23\"", "segmentCount=\"24\"")),
               HasSubstr("24, but 23"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "label=\"LeftToe\"", "label=\"Sword\"")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "label=\"LeftToe\"", "label=\"Sword\"")),
               HasSubstr("LeftToe is listed 0 times"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "jRightElbow", "jElsewhere")), HasSubstr("jRightElbow"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "frameRate=\"240", "frameRate=\"-240")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "jRightElbow", "jElsewhere")), HasSubstr("jRightElbow"));
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "frameRate=\"240", "frameRate=\"-240")),
               HasSubstr("frameRate"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "<velocity>", "<velocity>1 ")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "<velocity>", "<velocity>1 ")),
               AllOf(HasSubstr("velocity has 70 numbers"), HasSubstr("69")));
-  EXPECT_THAT(ErrorOf(Replaced(good, "<velocity>", "<velocity>nan ")), HasSubstr("NaN"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "<velocity>", "<velocity>1,5 ")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "<velocity>", "<velocity>nan ")), HasSubstr("NaN"));
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "<velocity>", "<velocity>1,5 ")),
               HasSubstr("is not a number"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "index=\"5\"", "index=\"3\"")), HasSubstr("frame index 3"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "ms=\"1600000000000\"", "ms=\"99999999999999999\"")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "index=\"5\"", "index=\"3\"")),
+              HasSubstr("frame index 3"));
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "ms=\"1600000000000\"", "ms=\"99999999999999999\"")),
               HasSubstr("ms is"));
-  EXPECT_THAT(ErrorOf(Replaced(good, "</subject>", "</subject><subject/>")),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "</subject>", "</subject><subject/>")),
               HasSubstr("second <subject>"));
 }
 
 TEST(Mvnx, ReportsEveryTruncation) {
   const std::string whole = SmallFile();
   for (std::size_t size = 1; size < whole.size() - 8; size += 997) {
-    const std::string error = ErrorOf(whole.substr(0, size));
+    const std::string error = ErrorOfMvnx(whole.substr(0, size));
     EXPECT_THAT(error, ::testing::AnyOf(HasSubstr("truncated here"), HasSubstr("not XML")))
         << "cut after " << size << " of " << whole.size() << " bytes";
   }
@@ -383,17 +384,17 @@ TEST(Mvnx, RejectsADocumentType) {
   const std::string bomb =
       "<!DOCTYPE mvnx [<!ENTITY a \"aaaaaaaa\"><!ENTITY b \"&a;&a;&a;\">]>"
       "<mvnx version=\"4\">&b;</mvnx>";
-  EXPECT_THAT(ErrorOf(bomb), HasSubstr("DOCTYPE"));
+  EXPECT_THAT(ErrorOfMvnx(bomb), HasSubstr("DOCTYPE"));
 }
 
 TEST(Mvnx, RejectsOversizedAndTooDeeplyNestedContent) {
-  EXPECT_THAT(ErrorOf("<mvnx version=\"4\" x=\"" + std::string(3 << 20, 'a')),
+  EXPECT_THAT(ErrorOfMvnx("<mvnx version=\"4\" x=\"" + std::string(3 << 20, 'a')),
               HasSubstr("longer than a megabyte"));
   std::string deep = "<mvnx version=\"4\">";
   for (int i = 0; i < 100; ++i) deep += "<a>";
-  EXPECT_THAT(ErrorOf(deep), HasSubstr("nested too deeply"));
+  EXPECT_THAT(ErrorOfMvnx(deep), HasSubstr("nested too deeply"));
   const std::string good = SmallFile();
-  EXPECT_THAT(ErrorOf(Replaced(good, "<velocity>", "<velocity>" + std::string(1 << 20, ' '))),
+  EXPECT_THAT(ErrorOfMvnx(Replaced(good, "<velocity>", "<velocity>" + std::string(1 << 20, ' '))),
               HasSubstr("too long"));
 }
 

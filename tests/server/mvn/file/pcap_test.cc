@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "tests/server/mvn/file/capture_builder.h"
@@ -20,14 +21,13 @@ using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kNoon = 1'700'000'000 * kSecond + 123'456'789;
+constexpr std::int64_t kNoon = 1'700'000'000 * kNanosPerSecond + 123'456'789;
 
 const Endpoint kSuit = Ipv4(20, 50'001);
 const Endpoint kUs = Ipv4(10, 8001);  // not MVN's own port, which needs no telling
 
 // A type 02 of `segments` segments: 63 are a body with gloves, longer than a packet.
-std::string Pose(std::uint32_t counter, int segments = 23) {
+std::string PosePacket(std::uint32_t counter, int segments = 23) {
   RawDatagram raw;
   raw.counter = counter;
   raw.items = segments;
@@ -48,7 +48,7 @@ Reading Read(const std::string& file) {
   return reading;
 }
 
-std::string ErrorOf(const std::string& file) {
+std::string ErrorOfCapture(const std::string& file) {
   try {
     Read(file);
   } catch (const SourceError& error) {
@@ -81,20 +81,20 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(PcapLink, ReturnsUdpDatagramsWithAddressesAndTime) {
   const Link& link = GetParam();
-  const std::string v4 = link.wrap(Udp(kSuit, kUs, Pose(1)));
-  const std::string v6 = link.wrap(Udp(Ipv6(1, 1), Ipv6(2, 2), Pose(2)));
+  const std::string v4 = link.wrap(Udp(kSuit, kUs, PosePacket(1)));
+  const std::string v6 = link.wrap(Udp(Ipv6(1, 1), Ipv6(2, 2), PosePacket(2)));
   PcapBuilder pcap(link.type);
   PcapNgBuilder pcapng(link.type);
   std::vector<KeptDatagram> expected;
   if (link.has_ipv4) {
     pcap.Add(kNoon, v4);
     pcapng.Add(kNoon, v4);
-    expected.push_back({kSuit, kUs, Pose(1), {kNoon, kNoon}});
+    expected.push_back({kSuit, kUs, PosePacket(1), {kNoon, kNoon}});
   }
   if (link.has_ipv6) {
     pcap.Add(kNoon + 1, v6);
     pcapng.AddOther("a comment").Add(kNoon + 1, v6);
-    expected.push_back({Ipv6(1, 1), Ipv6(2, 2), Pose(2), {kNoon + 1, kNoon + 1}});
+    expected.push_back({Ipv6(1, 1), Ipv6(2, 2), PosePacket(2), {kNoon + 1, kNoon + 1}});
   }
   for (const std::string& file : {pcap.bytes(), pcapng.bytes()}) {
     const Reading reading = Read(file);
@@ -106,7 +106,7 @@ TEST_P(PcapLink, ReturnsUdpDatagramsWithAddressesAndTime) {
 
 TEST(Pcap, ReadsTimesInMicroseconds) {
   const Reading reading =
-      Read(PcapBuilder(kLinkRaw, false).Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes());
+      Read(PcapBuilder(kLinkRaw, false).Add(kNoon, Udp(kSuit, kUs, PosePacket(1))).bytes());
   EXPECT_EQ(reading.sink.datagrams.at(0).arrival.wall_nanos, kNoon / 1000 * 1000);
 }
 
@@ -115,22 +115,22 @@ TEST(Pcap, ReadsOnlyPacketsToThePortOfTheStream) {
   const Endpoint name_server = Ipv4(1, 53);
   const Reading reading = Read(PcapBuilder(kLinkEthernet)
                                    .Add(kNoon, Ethernet(Udp(kUs, name_server, "who is suit?")))
-                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, Pose(1))))
+                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, PosePacket(1))))
                                    .Add(kNoon, Ethernet(Udp(kSuit, kUs, json)))
                                    .Add(kNoon, Ethernet(Udp(kSuit, Ipv4(10, 9763), json)))
                                    .Add(kNoon, Ethernet(Udp(kSuit, Ipv4(10, 8002), json)))
                                    .Add(kNoon, std::string(60, '\x08'))  // no EtherType of IP
                                    .bytes());
-  EXPECT_THAT(reading.sink.Brief(), ElementsAreArray(Brief({Pose(1), json, json})));
+  EXPECT_THAT(reading.sink.Brief(), ElementsAreArray(Brief({PosePacket(1), json, json})));
   EXPECT_EQ(reading.counters.other_packets, 3U);
 }
 
 TEST(Pcap, SkipsIpOptionsAndExtensionHeaders) {
-  std::string v4 = Udp(kSuit, kUs, Pose(1));
+  std::string v4 = Udp(kSuit, kUs, PosePacket(1));
   v4[0] = 0x47;  // 7 words
   v4.insert(20, 8, '\1');
   v4.replace(2, 2, std::string{static_cast<char>(v4.size() >> 8), static_cast<char>(v4.size())});
-  std::string v6 = Udp(Ipv6(1, 1), Ipv6(2, 8001), Pose(2));
+  std::string v6 = Udp(Ipv6(1, 1), Ipv6(2, 8001), PosePacket(2));
   const std::string options = FromHex(
       "3c00 0104 0000 0000" /* hop by hop, then destination */
       "1101 0104 0000 0000 0000 0000 0000 0000" /* then UDP */);
@@ -139,7 +139,7 @@ TEST(Pcap, SkipsIpOptionsAndExtensionHeaders) {
   const std::size_t size = v6.size() - 40;
   v6.replace(4, 2, std::string{static_cast<char>(size >> 8), static_cast<char>(size)});
   const Reading reading = Read(PcapBuilder(kLinkRaw).Add(kNoon, v4).Add(kNoon, v6).bytes());
-  EXPECT_THAT(reading.sink.Brief(), ElementsAreArray(Brief({Pose(1), Pose(2)})));
+  EXPECT_THAT(reading.sink.Brief(), ElementsAreArray(Brief({PosePacket(1), PosePacket(2)})));
 }
 
 TEST(Pcap, JoinsIpFragmentsInAnyOrder) {
@@ -151,7 +151,7 @@ TEST(Pcap, JoinsIpFragmentsInAnyOrder) {
     std::vector<std::string> expected;
     std::vector<std::string> pieces;
     for (std::uint32_t i = 0; i < 20; ++i) {
-      expected.push_back(Pose(i, 63));
+      expected.push_back(PosePacket(i, 63));
       for (auto& piece : Fragments(Udp(from, to, expected.back()), 496, static_cast<int>(i))) {
         pieces.push_back(piece);
       }
@@ -172,9 +172,9 @@ TEST(Pcap, JoinsIpFragmentsInAnyOrder) {
 }
 
 TEST(Pcap, CountsPacketsWithMissingFragments) {
-  const auto lost = Fragments(Udp(kSuit, kUs, Pose(1, 63)), 1024, 1);
-  const auto late = Fragments(Udp(kSuit, kUs, Pose(2, 63)), 1024, 2);
-  const auto good = Fragments(Udp(kSuit, kUs, Pose(3, 63)), 1024, 3);
+  const auto lost = Fragments(Udp(kSuit, kUs, PosePacket(1, 63)), 1024, 1);
+  const auto late = Fragments(Udp(kSuit, kUs, PosePacket(2, 63)), 1024, 2);
+  const auto good = Fragments(Udp(kSuit, kUs, PosePacket(3, 63)), 1024, 3);
   const std::int64_t too_late = kNoon + IpFragments::kPatienceNanos + 1;
   const Reading reading = Read(PcapBuilder(kLinkRaw)
                                    .Add(kNoon, lost[0])
@@ -183,7 +183,7 @@ TEST(Pcap, CountsPacketsWithMissingFragments) {
                                    .Add(kNoon, good[1])
                                    .Add(too_late, late[1])
                                    .bytes());
-  EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(Pose(3, 63))));
+  EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(PosePacket(3, 63))));
   // lost, late, and the second half of late for which a new packet began.
   EXPECT_EQ(reading.counters.incomplete_packets, 3U);
 }
@@ -210,7 +210,7 @@ struct Connection {
   explicit Connection(std::size_t size, std::uint32_t first_sequence = 1000, int count = 12) {
     std::string stream;
     for (int i = 0; i < count; ++i) {
-      datagrams.push_back(Pose(static_cast<std::uint32_t>(i), 20 + i % 3));
+      datagrams.push_back(PosePacket(static_cast<std::uint32_t>(i), 20 + i % 3));
       stream += datagrams.back();
     }
     segments.push_back(Tcp(kSuit, to, first_sequence, kSyn, ""));
@@ -356,18 +356,18 @@ TEST(Pcap, EndsWithAWarningAtATruncatedPacket) {
     std::string whole, shorter;
     if (is_ng) {
       PcapNgBuilder pcapng(kLinkRaw);
-      shorter = pcapng.Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes();
-      whole = pcapng.Add(kNoon, Udp(kSuit, kUs, Pose(2))).bytes();
+      shorter = pcapng.Add(kNoon, Udp(kSuit, kUs, PosePacket(1))).bytes();
+      whole = pcapng.Add(kNoon, Udp(kSuit, kUs, PosePacket(2))).bytes();
     } else {
       PcapBuilder pcap(kLinkRaw);
-      shorter = pcap.Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes();
-      whole = pcap.Add(kNoon, Udp(kSuit, kUs, Pose(2))).bytes();
+      shorter = pcap.Add(kNoon, Udp(kSuit, kUs, PosePacket(1))).bytes();
+      whole = pcap.Add(kNoon, Udp(kSuit, kUs, PosePacket(2))).bytes();
     }
     for (std::size_t size = shorter.size(); size < whole.size(); size += 7) {
       ::testing::internal::CaptureStdout();
       const Reading reading = Read(whole.substr(0, size));
       const std::string said = ::testing::internal::GetCapturedStdout();
-      EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(Pose(1))));
+      EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(PosePacket(1))));
       if (size == shorter.size()) {
         EXPECT_EQ(said, "") << "that one is whole";
       } else {
@@ -380,15 +380,15 @@ TEST(Pcap, EndsWithAWarningAtATruncatedPacket) {
 
 TEST(Pcap, CountsPacketsThatTheCaptureTruncated) {
   const Reading reading = Read(PcapBuilder(kLinkEthernet)
-                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, Pose(1))), 96)
-                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, Pose(2))))
+                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, PosePacket(1))), 96)
+                                   .Add(kNoon, Ethernet(Udp(kSuit, kUs, PosePacket(2))))
                                    .bytes());
-  EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(Pose(2))));
+  EXPECT_THAT(reading.sink.Brief(), ElementsAre(Brief(PosePacket(2))));
   EXPECT_EQ(reading.counters.incomplete_packets, 1U);
 }
 
 TEST(Pcap, RejectsPacketsWithWrongLengthFields) {
-  const std::string good = Udp(kSuit, kUs, Pose(1));
+  const std::string good = Udp(kSuit, kUs, PosePacket(1));
   PcapBuilder pcap(kLinkRaw);
   for (std::size_t at = 0; at < 28; ++at) {  // every byte of IP and UDP header at its worst
     std::string bad = good;
@@ -398,36 +398,36 @@ TEST(Pcap, RejectsPacketsWithWrongLengthFields) {
   for (std::size_t size = 0; size < 60; ++size) pcap.Add(kNoon, good.substr(0, size));
   // What is still a UDP packet has lied about nothing that matters here: addresses, a port, times.
   for (const KeptDatagram& datagram : Read(pcap.bytes()).sink.datagrams) {
-    EXPECT_EQ(datagram.bytes, Pose(1));
+    EXPECT_EQ(datagram.bytes, PosePacket(1));
   }
 }
 
 TEST(Pcap, RejectsFilesThatAreNoCapturesOfIpPackets) {
-  EXPECT_THAT(ErrorOf("this is no capture at all, but a text that is long enough"),
+  EXPECT_THAT(ErrorOfCapture("this is no capture at all, but a text that is long enough"),
               AllOf(HasSubstr("test.pcap: not a readable capture file"), HasSubstr("capinfos")));
-  EXPECT_THAT(ErrorOf(PcapBuilder(kLinkRaw).bytes().substr(0, 20)),
+  EXPECT_THAT(ErrorOfCapture(PcapBuilder(kLinkRaw).bytes().substr(0, 20)),
               HasSubstr("not a readable capture file"));
-  EXPECT_THAT(ErrorOf(PcapBuilder(kLinkWifi).bytes()),
+  EXPECT_THAT(ErrorOfCapture(PcapBuilder(kLinkWifi).bytes()),
               AllOf(HasSubstr("IEEE802_11"), HasSubstr("expected Ethernet")));
 }
 
 TEST(Pcap, ReportsTheNumberOfPacketsBeforeTheDamage) {
-  std::string file = PcapBuilder(kLinkRaw).Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes();
+  std::string file = PcapBuilder(kLinkRaw).Add(kNoon, Udp(kSuit, kUs, PosePacket(1))).bytes();
   const std::string header_of_a_giant = FromHex("60000000 00000000 7fffffff 7fffffff");
-  EXPECT_THAT(ErrorOf(file + header_of_a_giant + "x"),
+  EXPECT_THAT(ErrorOfCapture(file + header_of_a_giant + "x"),
               AllOf(HasSubstr("test.pcap: the capture is truncated after 1 packets"),
                     HasSubstr("record or copy it again")));
 }
 
 TEST(Pcap, ReturnsTimesThatNeverDecrease) {
-  const auto packet = [](std::uint32_t counter) { return Udp(kSuit, kUs, Pose(counter)); };
+  const auto packet = [](std::uint32_t counter) { return Udp(kSuit, kUs, PosePacket(counter)); };
   PcapBuilder pcap(kLinkRaw);
   pcap.Add(kNoon, packet(1))
       .Add(kNoon + 5000, packet(2))
       .Add(kNoon + 3000, packet(3))  // out of order
       .Add(kNoon + 9000, packet(4))
-      .Add(kNoon + 9000 - 3600 * kSecond, packet(5))  // the clock was set
-      .Add(kNoon + 10'000 - 3600 * kSecond, packet(6));
+      .Add(kNoon + 9000 - 3600 * kNanosPerSecond, packet(5))  // the clock was set
+      .Add(kNoon + 10'000 - 3600 * kNanosPerSecond, packet(6));
   std::vector<std::int64_t> times;
   for (const KeptDatagram& datagram : Read(pcap.bytes()).sink.datagrams) {
     times.push_back(datagram.arrival.monotonic_nanos - kNoon);
@@ -437,17 +437,18 @@ TEST(Pcap, ReturnsTimesThatNeverDecrease) {
 }
 
 TEST(Pcap, KeepsTheLastTimeOnOverflow) {
-  const std::int64_t late = 0xFFFFFFF0LL * kSecond;  // 2106, the last that the format can say
+  const std::int64_t late =
+      0xFFFFFFF0LL * kNanosPerSecond;  // 2106, the last that the format can say
   PcapBuilder pcap(kLinkRaw);
   std::uint32_t counter = 0;
-  for (const std::int64_t time : {late, kSecond, late, 2 * kSecond, late}) {
-    pcap.Add(time, Udp(kSuit, kUs, Pose(++counter)));
+  for (const std::int64_t time : {late, kNanosPerSecond, late, 2 * kNanosPerSecond, late}) {
+    pcap.Add(time, Udp(kSuit, kUs, PosePacket(++counter)));
   }
   std::vector<std::int64_t> times;
   for (const KeptDatagram& datagram : Read(pcap.bytes()).sink.datagrams) {
     times.push_back(datagram.arrival.wall_nanos - late);
   }
-  EXPECT_THAT(times, ElementsAre(0, 0, 0, kSecond, kSecond));
+  EXPECT_THAT(times, ElementsAre(0, 0, 0, kNanosPerSecond, kNanosPerSecond));
 }
 
 TEST(Pcap, ReportsACaptureWithoutMvnDatagrams) {

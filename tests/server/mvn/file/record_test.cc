@@ -33,17 +33,17 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kNoon = 1'700'000'000'123'456'789;
-const Endpoint kSuit = Ipv4(20, 50'001);
-const Endpoint kUs = Ipv4(10, 9763);
+constexpr std::int64_t kRecordNoon = 1'700'000'000'123'456'789;
+const Endpoint kRecordedSuit = Ipv4(20, 50'001);
+const Endpoint kRecorder = Ipv4(10, 9763);
 
 KeptDatagram Datagram(std::uint32_t counter, std::size_t items = 23) {
   RawDatagram raw;
   raw.counter = counter;
   raw.items = static_cast<int>(items);
   raw.payload = PoseItems(1, static_cast<int>(items));
-  const std::int64_t time = kNoon + counter * 4'166'667LL;
-  return {kSuit, kUs, raw.Bytes(), {time, time}};
+  const std::int64_t time = kRecordNoon + counter * 4'166'667LL;
+  return {kRecordedSuit, kRecorder, raw.Bytes(), {time, time}};
 }
 
 ReceivedDatagram View(const KeptDatagram& datagram) {
@@ -58,7 +58,7 @@ std::vector<KeptDatagram> ReadBack(const std::string& path) {
   return ReadToEnd(*OpenDatagrams(path)).datagrams;
 }
 
-std::string ErrorOf(const std::function<void()>& action) {
+std::string ErrorOfRecording(const std::function<void()>& action) {
   try {
     action();
   } catch (const SourceError& error) {
@@ -75,15 +75,15 @@ TEST(PcapWriter, WritesEveryByteAddressAndTime) {
       Datagram(1),
       Datagram(2, 63),
       {Ipv6(1, 1), Ipv6(2, 9763), Datagram(3).bytes, {}},
-      {kSuit, Ipv6(2, 9763), Datagram(4).bytes, {}},  // a mapped address
-      {kSuit, kUs, "", {}},
-      {kSuit, kUs, "odd", {}},
-      {kSuit, kUs, std::string(kMaxUdpPayload, 'x'), {}},
-      {Endpoint(), kUs, "MXTP", {}},
+      {kRecordedSuit, Ipv6(2, 9763), Datagram(4).bytes, {}},  // a mapped address
+      {kRecordedSuit, kRecorder, "", {}},
+      {kRecordedSuit, kRecorder, "odd", {}},
+      {kRecordedSuit, kRecorder, std::string(kMaxUdpPayload, 'x'), {}},
+      {Endpoint(), kRecorder, "MXTP", {}},
       {nobody, nobody, "MXTP", {}},
   };
   for (std::size_t i = 0; i < written.size(); ++i) {
-    written[i].arrival.wall_nanos = kNoon + static_cast<std::int64_t>(i) * 1'234'567;
+    written[i].arrival.wall_nanos = kRecordNoon + static_cast<std::int64_t>(i) * 1'234'567;
   }
   for (const char* name : {"take.pcap", "take.pcapng"}) {
     const std::string path = folder / name;
@@ -165,8 +165,8 @@ TEST(PcapWriter, KeepsEveryTimeToTheNanosecond) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   std::vector<KeptDatagram> written;
-  for (const std::int64_t time : {std::int64_t{0}, std::int64_t{999'999'999}, kNoon}) {
-    written.push_back({kSuit, kUs, "MXTP", {time, time}});
+  for (const std::int64_t time : {std::int64_t{0}, std::int64_t{999'999'999}, kRecordNoon}) {
+    written.push_back({kRecordedSuit, kRecorder, "MXTP", {time, time}});
   }
   PcapWriter writer({path});
   for (const KeptDatagram& datagram : written) Write(writer, datagram);
@@ -181,8 +181,8 @@ TEST(PcapWriter, WritesFilesThatWiresharkReads) {
   const std::string path = folder / "take.pcap";
   PcapWriter writer({path});
   Write(writer, Datagram(1, 63));
-  Write(writer, {Ipv6(1, 7), Ipv6(2, 9763), Datagram(2).bytes, {kNoon, kNoon}});
-  Write(writer, {kSuit, kUs, "odd", {kNoon, kNoon}});
+  Write(writer, {Ipv6(1, 7), Ipv6(2, 9763), Datagram(2).bytes, {kRecordNoon, kRecordNoon}});
+  Write(writer, {kRecordedSuit, kRecorder, "odd", {kRecordNoon, kRecordNoon}});
   writer.Close();
   const std::string command =
       "tshark -r '" + path +
@@ -237,7 +237,7 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   std::ofstream(path) << "dear";
-  EXPECT_THAT(ErrorOf([&] { PcapWriter({path}); }),
+  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({path}); }),
               AllOf(HasSubstr(path), HasSubstr("exists"), HasSubstr("--force")));
   EXPECT_EQ(std::filesystem::file_size(path), 4U);
   PcapWriter({path, 0, true}).Close();
@@ -246,7 +246,10 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
   // Numbered ones of an earlier recording would seem to be part of this one.
   std::filesystem::remove(path);
   std::ofstream(folder / "take-0002.pcap") << "dear";
-  EXPECT_THAT(ErrorOf([&] { PcapWriter({path, 1000, false}); }), HasSubstr("take-0002.pcap"));
+  EXPECT_THAT(ErrorOfRecording([&] {
+                PcapWriter({path, 1000, false});
+              }),
+              HasSubstr("take-0002.pcap"));
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"take-0002.pcap"});
   PcapWriter({path, 1000, true}).Close();
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"take.pcap"});
@@ -254,14 +257,14 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
 
 TEST(PcapWriter, ReportsWhyAFileCannotBeCreated) {
   TempFolder folder;
-  EXPECT_THAT(ErrorOf([&] { PcapWriter({folder / "none/take.pcap"}); }),
+  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({folder / "none/take.pcap"}); }),
               AllOf(HasSubstr("none/take.pcap"), HasSubstr("create its folder first")));
-  EXPECT_THAT(ErrorOf([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
+  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
 }
 
 TEST(PcapWriter, ReportsAFullDevice) {
   EXPECT_THAT(
-      ErrorOf([] { PcapWriter({"/dev/full"}); }),
+      ErrorOfRecording([] { PcapWriter({"/dev/full"}); }),
       AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("nothing was recorded")));
 }
 
@@ -275,7 +278,7 @@ TEST(PcapWriter, KeepsCompletePacketsWhenTheDiskIsFull) {
     std::string error;
     {
       const SmallFilesOnly full(limit);
-      error = ErrorOf([&] {
+      error = ErrorOfRecording([&] {
         for (; added < 1000; ++added) Write(writer, Datagram(added));
       });
     }
@@ -308,7 +311,7 @@ TEST(PcapWriter, LeavesNoEmptyFileWhenTheDiskIsFullAtARotation) {
   std::string error;
   {
     const SmallFilesOnly full(0);  // not even the header of the next one
-    error = ErrorOf([&] {
+    error = ErrorOfRecording([&] {
       for (int i = 0; i < 10; ++i) Write(writer, Datagram(added++));
     });
   }
@@ -390,7 +393,7 @@ TEST(PcapRecorder, CountsDatagramsThatDoNotFitIntoItsQueue) {
   PcapRecorder recorder({disk.path()}, PcapRecorder::WhenFull::kDrop, kQueue);
   constexpr std::uint32_t kCount = 2400;
   for (std::uint32_t i = 0; i < kCount; ++i) recorder.OnDatagram(View(Datagram(i)));
-  recorder.OnDatagram({kSuit, kUs, std::string(kMaxUdpPayload + 1, 'x'), {}});
+  recorder.OnDatagram({kRecordedSuit, kRecorder, std::string(kMaxUdpPayload + 1, 'x'), {}});
   std::string file;
   std::thread reader([&] { file = disk.ReadAll(); });
   recorder.Finish();
@@ -422,12 +425,12 @@ TEST(PcapRecorder, ReportsAFullDiskToItsOwner) {
   const std::string path = folder / "take.pcap";
   for (const auto when_full : {PcapRecorder::WhenFull::kDrop, PcapRecorder::WhenFull::kWait}) {
     PcapRecorder recorder({path, 0, true}, when_full, 50'000);
-    const std::string error = ErrorOf([&] {
+    const std::string error = ErrorOfRecording([&] {
       for (std::uint32_t i = 0;; ++i) recorder.OnDatagram(View(Datagram(i)));
     });
     EXPECT_THAT(error, HasSubstr("recording stopped"));
-    EXPECT_THAT(ErrorOf([&] { recorder.Check(); }), HasSubstr("recording stopped"));
-    EXPECT_THAT(ErrorOf([&] { recorder.Finish(); }), HasSubstr("recording stopped"));
+    EXPECT_THAT(ErrorOfRecording([&] { recorder.Check(); }), HasSubstr("recording stopped"));
+    EXPECT_THAT(ErrorOfRecording([&] { recorder.Finish(); }), HasSubstr("recording stopped"));
     EXPECT_EQ(ReadBack(path).size(), recorder.counters().datagrams);
   }
 }
@@ -470,7 +473,7 @@ TEST(Record, GivesIdenticalSamplesOnEveryPlayback) {
   const std::string path = folder / "take.pcap";
   RandomValues random(41);
   PcapWriter writer({path});
-  std::int64_t time = kNoon;
+  std::int64_t time = kRecordNoon;
   for (std::uint32_t counter = 0; counter < 200; ++counter) {
     for (int person = 0; person < 2; ++person) {
       BodySample sample = RandomSample(random, counter);
@@ -478,7 +481,7 @@ TEST(Record, GivesIdenticalSamplesOnEveryPlayback) {
       for (const std::string& datagram : EncodeSample(sample)) {
         time += random.Integer(1, 1'500'000);  // jitter
         if (random.Coin(0.02)) continue;       // losses
-        Write(writer, {kSuit, kUs, datagram, {time, time}});
+        Write(writer, {kRecordedSuit, kRecorder, datagram, {time, time}});
       }
     }
   }

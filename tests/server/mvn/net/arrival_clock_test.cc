@@ -7,9 +7,8 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int64_t kSecond = kNanosPerSecond;
-constexpr std::int64_t kMilli = kNanosPerMilli;
-constexpr std::int64_t kEpoch = 1'700'000'000 * kSecond;  // wall clock when the monotonic one is 0
+constexpr std::int64_t kEpoch =
+    1'700'000'000 * kNanosPerSecond;  // wall clock when the monotonic one is 0
 
 // The time `secs` after the start; `set_by`: by how much the wall clock was set until then.
 Arrival At(double secs, std::int64_t set_by = 0) {
@@ -34,7 +33,8 @@ TEST(ArrivalClock, TakesTheTimeOfReadingWithoutAStamp) {
 }
 
 TEST(ArrivalClock, ReportsThatTheWallClockWasSetAndKeepsTheAgeOfWhatWaited) {
-  for (const std::int64_t set_by : {3200 * kMilli, -3200 * kMilli, 3600 * kSecond}) {
+  for (const std::int64_t set_by :
+       {3200 * kNanosPerMilli, -3200 * kNanosPerMilli, 3600 * kNanosPerSecond}) {
     ArrivalClock clock(At(0));
     clock.Read(At(10));
     clock.ArrivalOf(At(10).wall_nanos);
@@ -52,10 +52,10 @@ TEST(ArrivalClock, ReportsThatTheWallClockWasSetAndKeepsTheAgeOfWhatWaited) {
 TEST(ArrivalClock, FollowsAWallClockThatIsCorrectedGradually) {
   ArrivalClock clock(At(0));
   for (int i = 1; i <= 100; ++i) {
-    const Arrival now = At(i, i * 10 * kMilli);
+    const Arrival now = At(i, i * 10 * kNanosPerMilli);
     EXPECT_EQ(clock.Read(now), 0);
-    EXPECT_EQ(clock.ArrivalOf(now.wall_nanos - kMilli).monotonic_nanos,
-              now.monotonic_nanos - kMilli);
+    EXPECT_EQ(clock.ArrivalOf(now.wall_nanos - kNanosPerMilli).monotonic_nanos,
+              now.monotonic_nanos - kNanosPerMilli);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(ArrivalClock, NeverGoesBackNorBeyondTheTimeOfReading) {
   clock.Read(At(10));
   EXPECT_EQ(clock.ArrivalOf(At(10).wall_nanos).monotonic_nanos, At(10).monotonic_nanos);
   clock.Read(At(11));
-  EXPECT_EQ(clock.ArrivalOf(kEpoch - 5 * kSecond).monotonic_nanos, At(10).monotonic_nanos);
+  EXPECT_EQ(clock.ArrivalOf(kEpoch - 5 * kNanosPerSecond).monotonic_nanos, At(10).monotonic_nanos);
   EXPECT_EQ(clock.ArrivalOf(At(500).wall_nanos).monotonic_nanos, At(11).monotonic_nanos);
   EXPECT_EQ(clock.ArrivalOf(At(10.5).wall_nanos).monotonic_nanos, At(11).monotonic_nanos);
 }

@@ -17,6 +17,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/ros/link_states.h"
 #include "server/ros/source/people_frames.h"
@@ -92,17 +93,16 @@ using ::testing::IsEmpty;
 using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
-constexpr std::int64_t kMilli = 1'000'000;
-constexpr std::int64_t kStart = 1'700'000'000'000 * kMilli;
-constexpr std::int64_t kPeriod = 10 * kMilli;
+constexpr std::int64_t kBagStart = 1'700'000'000'000 * kNanosPerMilli;
+constexpr std::int64_t kBagPeriod = 10 * kNanosPerMilli;
 
-struct Recorded : kinescope::testing::RecordingSink {
+struct ReadPeople : kinescope::testing::RecordingSink {
   SourceCounters counters;
   double rate_hz = 0;
 };
 
-Recorded ReadBag(const std::string& path) {
-  Recorded recorded;
+ReadPeople ReadBag(const std::string& path) {
+  ReadPeople recorded;
   const auto source = OpenBag(path);
   EXPECT_FALSE(source->is_live());
   EXPECT_EQ(source->description(), path);
@@ -123,7 +123,7 @@ std::string RefusalOf(const std::string& path) {
   return "it was read";
 }
 
-ros::Time TimeOf(std::int64_t nanos) {
+ros::Time RosTimeOf(std::int64_t nanos) {
   ros::Time time;
   time.fromNSec(static_cast<std::uint64_t>(nanos));
   return time;
@@ -132,7 +132,7 @@ ros::Time TimeOf(std::int64_t nanos) {
 // The n-th sample of a person who moves a little each time.
 PersonState PersonAt(int n, const std::string& model = "skeleton") {
   return MakePerson(MakeModel(model), Posture(0.05 * n), static_cast<std::uint32_t>(n),
-                    kStart + n * kPeriod);
+                    kBagStart + n * kBagPeriod);
 }
 
 tf2_msgs::TFMessage TransformsOf(const PersonState& person, TfShape shape = TfShape::kFlat) {
@@ -191,19 +191,20 @@ void ExpectMotion(const BodySample& sample, const PersonState& person) {
 
 // Loads are those of the motion then, and not of someone who stands still.
 TEST_F(BagTest, HasTheVelocitiesOfLinkStatesBeforeOrAfterTheTransforms) {
-  const Recorded recorded = ReadBag(Bag([](rosbag::Bag& bag) {
+  const ReadPeople recorded = ReadBag(Bag([](rosbag::Bag& bag) {
     for (int n = 0; n < 20; ++n) {
       const PersonState one = PersonAt(n, "anna");
       PersonState other = PersonAt(n + 3, "ben");
       other.sample.stamp_nanos = one.sample.stamp_nanos;
       for (auto& link : other.links) link.position.x() += 2;
       for (auto& segment : other.sample.segments) segment.position.x() += 2;
-      const std::int64_t late = kStart + n * kPeriod + 2'000'000;
+      const std::int64_t late = kBagStart + n * kBagPeriod + 2'000'000;
       const bool is_before = n % 2 == 1;
-      bag.write("/tf", TimeOf(late), TransformsOf(one));
-      bag.write("/tf", TimeOf(late + 1000), TransformsOf(other));
-      bag.write("/xsens/link_states", TimeOf(late + (is_before ? -2000 : 2000)), LinkStatesOf(one));
-      bag.write("/xsens/ben/link_states", TimeOf(late + (is_before ? -1000 : 3000)),
+      bag.write("/tf", RosTimeOf(late), TransformsOf(one));
+      bag.write("/tf", RosTimeOf(late + 1000), TransformsOf(other));
+      bag.write("/xsens/link_states", RosTimeOf(late + (is_before ? -2000 : 2000)),
+                LinkStatesOf(one));
+      bag.write("/xsens/ben/link_states", RosTimeOf(late + (is_before ? -1000 : 3000)),
                 LinkStatesOf(other));
     }
   }));
@@ -216,9 +217,9 @@ TEST_F(BagTest, HasTheVelocitiesOfLinkStatesBeforeOrAfterTheTransforms) {
 }
 
 TEST_F(BagTest, ReadsPeopleOfWhomOnlyLinkStatesWereRecorded) {
-  const Recorded recorded = ReadBag(Bag([](rosbag::Bag& bag) {
+  const ReadPeople recorded = ReadBag(Bag([](rosbag::Bag& bag) {
     for (int n = 0; n < 20; ++n) {
-      const ros::Time time = TimeOf(kStart + n * kPeriod + 2'000'000);
+      const ros::Time time = RosTimeOf(kBagStart + n * kBagPeriod + 2'000'000);
       bag.write("/xsens/link_states", time, LinkStatesOf(PersonAt(n)));
       bag.write("/xsens/ben/link_states", time, LinkStatesOf(PersonAt(n + 3)));
     }
@@ -226,7 +227,7 @@ TEST_F(BagTest, ReadsPeopleOfWhomOnlyLinkStatesWereRecorded) {
   ASSERT_EQ(recorded.samples.size(), 40U);
   ASSERT_EQ(recorded.characters.size(), 2U);
   EXPECT_NE(recorded.characters[0].id, recorded.characters[1].id);
-  EXPECT_NEAR(recorded.rate_hz, 1e9 / kPeriod, 0.1);
+  EXPECT_NEAR(recorded.rate_hz, 1e9 / kBagPeriod, 0.1);
   for (const BodySample& sample : recorded.samples) {
     if (sample.character != recorded.characters[0].id) continue;
     const bool is_ben = recorded.characters[0].name.find("ben") != std::string::npos;
@@ -241,7 +242,7 @@ TEST_F(BagTest, ReadsPeopleOfWhomOnlyLinkStatesWereRecorded) {
 TEST_F(BagTest, ReadsTheSamplesOfARecordedBagAsInItsCsv) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.xsens_tf.csv");
-  const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
+  const ReadPeople recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
   ASSERT_EQ(recorded.samples.size(), 135U);
   std::ifstream csv(SharedData("ros1/2018-05-28-17-34-45.xsens_tf.csv"));
   std::string line;
@@ -279,7 +280,7 @@ TEST_F(BagTest, ReadsTheSamplesOfARecordedBagAsInItsCsv) {
 // them, at the same place in all samples.
 TEST_F(BagTest, ReadsArmsAlongTheirYAxisWithRigidSegments) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
-  const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
+  const ReadPeople recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
   ASSERT_FALSE(recorded.samples.empty());
   for (const BodySample& sample : recorded.samples) {
     const auto next_joint = [&](int segment) -> Eigen::Vector3d {
@@ -315,28 +316,28 @@ TEST_P(WrittenBagTest, RestoresThePublishedPoses) {
       [&](rosbag::Bag& out) {
         for (int n = 0; n < kSamples; ++n) {
           const tf2_msgs::TFMessage message = TransformsOf(PersonAt(n), how.shape);
-          std::int64_t recorded_at = kStart + n * kPeriod + 3 * kMilli;
+          std::int64_t recorded_at = kBagStart + n * kBagPeriod + 3 * kNanosPerMilli;
           if (!how.one_by_one) {
-            out.write("/tf", TimeOf(recorded_at), message);
+            out.write("/tf", RosTimeOf(recorded_at), message);
             continue;
           }
           for (const auto& transform : message.transforms) {
             tf2_msgs::TFMessage single;
             single.transforms.push_back(transform);
-            out.write("/tf", TimeOf(recorded_at), single);
+            out.write("/tf", RosTimeOf(recorded_at), single);
             recorded_at += 10'000;
           }
         }
       },
       how.compression);
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.samples.size(), static_cast<std::size_t>(kSamples));
   for (int n = 0; n < kSamples; ++n) {
     const BodySample& sample = recorded.samples[static_cast<std::size_t>(n)];
     ExpectPoses(sample, PersonAt(n));
-    EXPECT_EQ(sample.stamp_nanos, kStart + n * kPeriod) << "the header's, not the bag's";
+    EXPECT_EQ(sample.stamp_nanos, kBagStart + n * kBagPeriod) << "the header's, not the bag's";
     EXPECT_EQ(sample.counter, static_cast<std::uint32_t>(n));
-    EXPECT_EQ(sample.time_code_millis, n * kPeriod / kMilli);
+    EXPECT_EQ(sample.time_code_millis, n * kBagPeriod / kNanosPerMilli);
     EXPECT_EQ(sample.arrival_nanos, 0);
     EXPECT_FALSE(sample.has_linear || sample.has_angular || sample.com);
   }
@@ -358,10 +359,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Written{TfShape::kTree, rosbag::compression::Uncompressed, true}));
 
 TEST_F(BagTest, ReadsABagCompressedWithGzip) {
-  const std::string bag =
-      Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); });
+  const std::string bag = Bag(
+      [](rosbag::Bag& out) { out.write("/tf", RosTimeOf(kBagStart), TransformsOf(PersonAt(0))); });
   ASSERT_EQ(RunProgram({"/bin/gzip", bag}).exit_code, 0);
-  const Recorded recorded = ReadBag(bag + ".gz");
+  const ReadPeople recorded = ReadBag(bag + ".gz");
   ASSERT_EQ(recorded.samples.size(), 1U);
   ExpectPoses(recorded.samples[0], PersonAt(0));
 }
@@ -386,12 +387,12 @@ TEST_F(BagTest, DistinguishesTwoPeopleAndARobotWithHands) {
       }
       std_msgs::String text;
       text.data = "hello";
-      out.write("/chatter", TimeOf(kStart + n * kPeriod), text);
-      out.write("/tf", TimeOf(kStart + n * kPeriod), robot);
-      out.write("/tf", TimeOf(kStart + n * kPeriod), both);
+      out.write("/chatter", RosTimeOf(kBagStart + n * kBagPeriod), text);
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), robot);
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), both);
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.characters.size(), 2U);
   EXPECT_EQ(recorded.characters[0].name, "anna");
   EXPECT_EQ(recorded.characters[1].name, "ben");
@@ -420,9 +421,9 @@ TEST_F(BagTest, RecognisesArmsInSegmentFramesByTheirGeometry) {
       transform.transform.rotation.y = state.orientation.y();
       transform.transform.rotation.z = state.orientation.z();
     }
-    out.write("/tf", TimeOf(kStart), message);
+    out.write("/tf", RosTimeOf(kBagStart), message);
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.samples.size(), 1U);
   ExpectPoses(recorded.samples[0], PersonAt(4));
 }
@@ -435,7 +436,7 @@ TEST_F(BagTest, ReadsAnOldMessageTypeOfTheSameLayout) {
     ros::serialization::OStream stream(raw.bytes.data(),
                                        static_cast<std::uint32_t>(raw.bytes.size()));
     ros::serialization::serialize(stream, message);
-    out.write("/tf", TimeOf(kStart), raw);
+    out.write("/tf", RosTimeOf(kBagStart), raw);
   });
   EXPECT_EQ(ReadBag(bag).samples.size(), 1U);
 }
@@ -445,15 +446,16 @@ TEST_F(BagTest, UsesHeaderTimeStampsUntilTheyGoBack) {
   const std::string bag = Bag([&](rosbag::Bag& out) {
     for (std::size_t i = 0; i < headers.size(); ++i) {
       PersonState person = PersonAt(static_cast<int>(i));
-      person.sample.stamp_nanos = kStart + headers[i] * kMilli;
-      out.write("/tf", TimeOf(kStart + (static_cast<std::int64_t>(i) * 10 + 2) * kMilli),
+      person.sample.stamp_nanos = kBagStart + headers[i] * kNanosPerMilli;
+      out.write("/tf",
+                RosTimeOf(kBagStart + (static_cast<std::int64_t>(i) * 10 + 2) * kNanosPerMilli),
                 TransformsOf(person));
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   std::vector<std::int64_t> millis;
   for (const BodySample& sample : recorded.samples) {
-    millis.push_back((sample.stamp_nanos - kStart) / kMilli);
+    millis.push_back((sample.stamp_nanos - kBagStart) / kNanosPerMilli);
   }
   EXPECT_THAT(millis, ElementsAre(0, 10, 20, 42, 52, 62));
   EXPECT_EQ(recorded.counters.duplicates, 1U) << "20 ms twice is one sample";
@@ -463,14 +465,14 @@ TEST_F(BagTest, IgnoresHeaderTimeStampsOfAnotherDay) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 3; ++n) {
       PersonState person = PersonAt(n);
-      person.sample.stamp_nanos = 34'486'000 * kMilli;  // the same wrong stamp every time
-      out.write("/tf", TimeOf(kStart + n * kPeriod), TransformsOf(person));
+      person.sample.stamp_nanos = 34'486'000 * kNanosPerMilli;  // the same wrong stamp every time
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), TransformsOf(person));
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.samples.size(), 3U);
-  EXPECT_EQ(recorded.samples[0].stamp_nanos, kStart);
-  EXPECT_EQ(recorded.samples[2].stamp_nanos, kStart + 2 * kPeriod);
+  EXPECT_EQ(recorded.samples[0].stamp_nanos, kBagStart);
+  EXPECT_EQ(recorded.samples[2].stamp_nanos, kBagStart + 2 * kBagPeriod);
   EXPECT_EQ(recorded.samples[2].time_code_millis, 20);
 }
 
@@ -479,10 +481,10 @@ TEST_F(BagTest, SkipsAndCountsSamplesWithMissingSegments) {
     for (int n = 0; n < 5; ++n) {
       tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
       if (n == 1 || n == 4) message.transforms.erase(message.transforms.begin() + 7);
-      out.write("/tf", TimeOf(kStart + n * kPeriod), message);
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), message);
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.samples.size(), 3U);
   ExpectPoses(recorded.samples[1], PersonAt(2));
   EXPECT_THAT(recorded.counters.rejected, ElementsAre(Pair("sample without all 23 segments", 2)));
@@ -498,13 +500,13 @@ TEST_F(BagTest, ReadsFramesOfThePersonFromTfStatic) {
         if (is_toe && n == 0) fixed.transforms.push_back(transform);
         if (is_toe) continue;
         moving.transforms.push_back(transform);
-        moving.transforms.back().header.stamp = TimeOf(kStart + n * kPeriod);
+        moving.transforms.back().header.stamp = RosTimeOf(kBagStart + n * kBagPeriod);
       }
-      if (n == 0) out.write("/tf_static", TimeOf(kStart - kPeriod), fixed);
-      out.write("/tf", TimeOf(kStart + n * kPeriod), moving);
+      if (n == 0) out.write("/tf_static", RosTimeOf(kBagStart - kBagPeriod), fixed);
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), moving);
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.samples.size(), 3U);
   for (const BodySample& sample : recorded.samples) ExpectPoses(sample, PersonAt(0));
   EXPECT_THAT(recorded.counters.rejected, IsEmpty());
@@ -514,13 +516,15 @@ TEST_F(BagTest, ReadsFramesOfThePersonFromTfStatic) {
 TEST_F(BagTest, FindsAPersonWhoAppearsLater) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 30; ++n) {
-      out.write("/tf", TimeOf(kStart + n * 1000 * kMilli), TransformsOf(PersonAt(n, "anna")));
+      out.write("/tf", RosTimeOf(kBagStart + n * 1000 * kNanosPerMilli),
+                TransformsOf(PersonAt(n, "anna")));
       if (n >= 20) {
-        out.write("/tf", TimeOf(kStart + n * 1000 * kMilli), TransformsOf(PersonAt(n, "aa")));
+        out.write("/tf", RosTimeOf(kBagStart + n * 1000 * kNanosPerMilli),
+                  TransformsOf(PersonAt(n, "aa")));
       }
     }
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   ASSERT_EQ(recorded.characters.size(), 2U);
   EXPECT_EQ(recorded.characters[0].name, "anna") << "keeps her number";
   EXPECT_EQ(recorded.characters[1].name, "aa");
@@ -536,22 +540,23 @@ TEST_F(BagTest, CountsRejectedTransformsByReason) {
       if (n == 2) transform.rotation.w += 0.1;
       if (n == 3) transform.translation.z = 1e9;
       if (n == 4) message.transforms[3].header.frame_id = "somewhere_else";
-      out.write("/tf", TimeOf(kStart + n * kPeriod), message);
+      out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), message);
     }
     AnyBytes liar;
     liar.bytes.assign(100, 0xFF);  // 4294967295 transforms
-    out.write("/tf", TimeOf(kStart + 6 * kPeriod), liar);
+    out.write("/tf", RosTimeOf(kBagStart + 6 * kBagPeriod), liar);
     liar.bytes.assign(100, 0);
     liar.bytes[0] = 1;
     liar.bytes[16] = 0xFF;  // a name longer than the message
-    out.write("/tf", TimeOf(kStart + 7 * kPeriod), liar);
+    out.write("/tf", RosTimeOf(kBagStart + 7 * kBagPeriod), liar);
     liar.bytes.assign(2, 0);
-    out.write("/tf", TimeOf(kStart + 8 * kPeriod), liar);
+    out.write("/tf", RosTimeOf(kBagStart + 8 * kBagPeriod), liar);
     AnyBytes::datatype = "std_msgs/String";
     AnyBytes::md5 = ros::message_traits::md5sum<std_msgs::String>();
-    out.write("tf", TimeOf(kStart + 9 * kPeriod), AnyBytes{{0, 0, 0, 0}});  // a topic has one type
+    out.write("tf", RosTimeOf(kBagStart + 9 * kBagPeriod),
+              AnyBytes{{0, 0, 0, 0}});  // a topic has one type
   });
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   EXPECT_EQ(recorded.samples.size(), 2U);
   EXPECT_THAT(
       recorded.counters.rejected,
@@ -569,7 +574,7 @@ TEST_F(BagTest, RejectsCyclicFrames) {
     tf2_msgs::TFMessage message = TransformsOf(PersonAt(0));
     message.transforms[0].header.frame_id = message.transforms[1].child_frame_id;
     message.transforms[1].header.frame_id = message.transforms[0].child_frame_id;
-    out.write("/tf", TimeOf(kStart), message);
+    out.write("/tf", RosTimeOf(kBagStart), message);
   });
   EXPECT_THAT(ReadBag(bag).counters.rejected,
               ElementsAre(Pair("sample whose frames have no common parent", 1)));
@@ -587,12 +592,12 @@ TEST_F(BagTest, RejectsUnreadableFilesWithNameAndRemedy) {
   const std::string nobody = Bag([](rosbag::Bag& out) {
     tf2_msgs::TFMessage message = TransformsOf(PersonAt(0));
     message.transforms.resize(20);
-    out.write("/tf", TimeOf(kStart), message);
+    out.write("/tf", RosTimeOf(kBagStart), message);
   });
   EXPECT_THAT(RefusalOf(nobody), AllOf(HasSubstr(nobody), HasSubstr("no person found on /tf"),
                                        HasSubstr("skeleton_pelvis")));
-  const std::string no_tf =
-      Bag([](rosbag::Bag& out) { out.write("/chatter", TimeOf(kStart), std_msgs::String()); });
+  const std::string no_tf = Bag(
+      [](rosbag::Bag& out) { out.write("/chatter", RosTimeOf(kBagStart), std_msgs::String()); });
   EXPECT_THAT(RefusalOf(no_tf), HasSubstr("contains neither /tf nor link_states"));
   const std::string empty = Bag([](rosbag::Bag&) {});
   EXPECT_THAT(RefusalOf(empty), HasSubstr("contains neither /tf nor link_states"));
@@ -644,11 +649,11 @@ std::vector<BodySample> SamplesOfRosbag(const std::string& path) {
 void WriteInChunks(rosbag::Bag& out) {
   out.setChunkThreshold(4096);
   for (int n = 0; n < 20; ++n) {
-    std::int64_t recorded_at = kStart + n * kPeriod;
+    std::int64_t recorded_at = kBagStart + n * kBagPeriod;
     for (const auto& transform : TransformsOf(PersonAt(n)).transforms) {
       tf2_msgs::TFMessage single;
       single.transforms.push_back(transform);
-      out.write("/tf", TimeOf(recorded_at), single);
+      out.write("/tf", RosTimeOf(recorded_at), single);
       recorded_at += 10'000;
     }
   }
@@ -685,7 +690,8 @@ TEST_F(BagTest, PutsMessagesInTheOrderOfTheirRecordedTime) {
     for (const char* name : {"anna", "ben"}) {
       for (int n = 0; n < 10; ++n) {
         const int swapped = n ^ 1;
-        out.write("/tf", TimeOf(kStart + swapped * kPeriod), TransformsOf(PersonAt(swapped, name)));
+        out.write("/tf", RosTimeOf(kBagStart + swapped * kBagPeriod),
+                  TransformsOf(PersonAt(swapped, name)));
       }
     }
   });
@@ -695,7 +701,7 @@ TEST_F(BagTest, PutsMessagesInTheOrderOfTheirRecordedTime) {
   const std::string sorted = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 10; ++n) {
       for (const char* name : {"anna", "ben"}) {
-        out.write("/tf", TimeOf(kStart + n * kPeriod), TransformsOf(PersonAt(n, name)));
+        out.write("/tf", RosTimeOf(kBagStart + n * kBagPeriod), TransformsOf(PersonAt(n, name)));
       }
     }
   });
@@ -705,7 +711,8 @@ TEST_F(BagTest, PutsMessagesInTheOrderOfTheirRecordedTime) {
 TEST_P(CompressedBagTest, ReadsEveryTruncationUpToItsEnd) {
   const std::string bag = Bag(
       [](rosbag::Bag& out) {
-        for (int n = 0; n < 3; ++n) out.write("/tf", TimeOf(kStart + n), TransformsOf(PersonAt(n)));
+        for (int n = 0; n < 3; ++n)
+          out.write("/tf", RosTimeOf(kBagStart + n), TransformsOf(PersonAt(n)));
       },
       GetParam());
   const std::string whole = kinescope::testing::ReadFile(bag);
@@ -764,7 +771,7 @@ TEST_P(CompressedBagTest, SkipsAndCountsADamagedChunk) {
   for (int n = 0; n < 4; ++n) chunk = bytes.find("compression=", chunk + 1);
   std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(chunk) + 200, 40, '\x7f');
   std::ofstream(bag, std::ios::binary) << bytes;
-  const Recorded recorded = ReadBag(bag);
+  const ReadPeople recorded = ReadBag(bag);
   EXPECT_GE(recorded.samples.size(), 15U);
   EXPECT_LT(recorded.samples.size(), 20U);
   const auto& rejected = recorded.counters.rejected;
@@ -787,7 +794,7 @@ TEST_P(CompressedBagTest, GoesOnWithTheNextChunkAfterADamagedLength) {
       std::string bytes = whole;
       bytes.replace(length_at, std::strlen(value), value);
       std::ofstream(bag, std::ios::binary) << bytes;
-      const Recorded recorded = ReadBag(bag);
+      const ReadPeople recorded = ReadBag(bag);
       EXPECT_GE(recorded.samples.size(), 14U) << length_at - chunk << ", " << value;
       EXPECT_FALSE(recorded.counters.rejected.empty()) << length_at - chunk << ", " << value;
     }
@@ -806,13 +813,13 @@ TEST_P(CompressedBagTest, NeedsNoIndex) {
 TEST_F(BagTest, RejectsALargeMessageWithoutTakingMemoryForIt) {
   const std::string bag = Bag(
       [](rosbag::Bag& out) {
-        out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0)));
+        out.write("/tf", RosTimeOf(kBagStart), TransformsOf(PersonAt(0)));
         AnyBytes large;
         large.bytes.resize(100 << 20);
-        out.write("/tf", TimeOf(kStart + 1), large);
+        out.write("/tf", RosTimeOf(kBagStart + 1), large);
         AnyBytes::datatype = "sensor_msgs/Image";
-        out.write("/camera", TimeOf(kStart + 1), large);
-        out.write("/tf", TimeOf(kStart + kPeriod), TransformsOf(PersonAt(1)));
+        out.write("/camera", RosTimeOf(kBagStart + 1), large);
+        out.write("/tf", RosTimeOf(kBagStart + kBagPeriod), TransformsOf(PersonAt(1)));
       },
       rosbag::compression::LZ4);
   struct : SampleSink {
@@ -847,8 +854,8 @@ TEST_F(BagTest, ReadsATruncatedCompressedBagUpToItsEnd) {
 }
 
 TEST_F(BagTest, ReadsACompressedBagWithoutTemporaryFiles) {
-  const std::string bag = Gzip(
-      Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); }));
+  const std::string bag = Gzip(Bag(
+      [](rosbag::Bag& out) { out.write("/tf", RosTimeOf(kBagStart), TransformsOf(PersonAt(0))); }));
   const char* before = std::getenv("TMPDIR");
   const std::string kept = before == nullptr ? "" : before;
   setenv("TMPDIR", "/no/such/folder", 1);

@@ -28,8 +28,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
-constexpr std::int64_t kPeriod = 10'000'000;
+constexpr std::int64_t kFirstNanos = 1'700'000'000'000'000'000;
+constexpr std::int64_t kPeriodNanos = 10'000'000;
 constexpr int kSamples = 8;
 // Bytes, however large the bag says that it is.
 constexpr std::size_t kMostMemory = 32 << 20;
@@ -118,7 +118,7 @@ class DamagedBagTest : public ::testing::TestWithParam<rosbag::CompressionType> 
     bag.setCompression(GetParam());
     bag.setChunkThreshold(8192);
     for (int n = 0; n < kSamples; ++n) {
-      const std::int64_t now = kStart + n * kPeriod;
+      const std::int64_t now = kFirstNanos + n * kPeriodNanos;
       tf2_msgs::TFMessage message;
       FillTransforms(kinescope::testing::MakePerson(model, kinescope::testing::Posture(0.05 * n),
                                                     static_cast<std::uint32_t>(n), now),

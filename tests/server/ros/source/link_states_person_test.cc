@@ -21,14 +21,14 @@ using ::testing::Pair;
 using testing::Posture;
 using ::testing::UnorderedElementsAre;
 
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
-constexpr std::int64_t kPeriod = 10'000'000;
+constexpr std::int64_t kLinksStart = 1'700'000'000'000'000'000;
+constexpr std::int64_t kLinksPeriod = 10'000'000;
 
 class LinkStatesPersonTest : public ::testing::Test {
  protected:
   static PersonState PersonAt(int n) {
     return MakePerson(MakeModel(), Posture(0.05 * n), static_cast<std::uint32_t>(n),
-                      kStart + n * kPeriod);
+                      kLinksStart + n * kLinksPeriod);
   }
   static xsens_mvn_ros_msgs::LinkStateArray MessageAt(int n) {
     xsens_mvn_ros_msgs::LinkStateArray message;
@@ -36,7 +36,7 @@ class LinkStatesPersonTest : public ::testing::Test {
     return message;
   }
   void Take(int n, const xsens_mvn_ros_msgs::LinkStateArray& message) {
-    person_.Take(message, {kStart + n * kPeriod + 1'000'000, 1 + n}, counters_, sink_);
+    person_.Take(message, {kLinksStart + n * kLinksPeriod + 1'000'000, 1 + n}, counters_, sink_);
   }
 
   LinkStatesPerson person_{"xsens"};
@@ -76,7 +76,7 @@ TEST_F(LinkStatesPersonTest, UsesTimeStampsOfTheStatesAndIgnoresOtherLinks) {
   message.states.back().header.frame_id = "generic_link";
   Take(3, message);
   ASSERT_EQ(sink_.samples.size(), 1U);
-  EXPECT_EQ(sink_.samples[0].stamp_nanos, kStart + 3 * kPeriod);
+  EXPECT_EQ(sink_.samples[0].stamp_nanos, kLinksStart + 3 * kLinksPeriod);
 }
 
 TEST_F(LinkStatesPersonTest, TreatsAllZeroTwistsAsUnmeasured) {

@@ -9,24 +9,24 @@
 #include <string>
 #include <thread>
 
+#include "core/system/clocks.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::int64_t kMilli = 1'000'000;
-constexpr std::int64_t kSecond = 1000 * kMilli;
-constexpr std::int64_t kWallOffset = 1'700'000'000 * kSecond;
+constexpr std::int64_t kWallOffset = 1'700'000'000 * kNanosPerSecond;
 
 // Nodes that answer have a clock that is `ahead_`, and messages take 20 ms.
 class PublisherClocksTest : public ::testing::Test {
  protected:
   std::int64_t Wall() const { return monotonic_ + wall_offset_; }
   std::int64_t Message(const std::string& node) {
-    monotonic_ += 10 * kMilli;
-    return clocks_.OnMessage(node, Wall() - 20 * kMilli + ahead_, Wall());
+    monotonic_ += 10 * kNanosPerMilli;
+    return clocks_.OnMessage(node, Wall() - 20 * kNanosPerMilli + ahead_, Wall());
   }
   void Person(const std::string& node) {
     Message(node);
-    clocks_.OnPerson(node, Wall() - 20 * kMilli + ahead_, Wall());
+    clocks_.OnPerson(node, Wall() - 20 * kNanosPerMilli + ahead_, Wall());
   }
   // Until the node's clock is known.
   bool WaitForAnswer() {
@@ -40,38 +40,39 @@ class PublisherClocksTest : public ::testing::Test {
     return false;
   }
 
-  std::int64_t monotonic_ = 1'000 * kSecond, wall_offset_ = kWallOffset;
+  std::int64_t monotonic_ = 1'000 * kNanosPerSecond, wall_offset_ = kWallOffset;
   std::int64_t ahead_ = 0;
   std::atomic<std::int64_t> answer_{0};  // of all nodes; 0: none
   PublisherClocks clocks_{[this](const std::string&) {
     return [this]() -> std::optional<RoundTrip> {
       const std::int64_t theirs = answer_;
       if (theirs == 0) return std::nullopt;
-      return RoundTrip{1'000 * kSecond - kMilli, 1'000 * kSecond + kMilli, theirs};
+      return RoundTrip{1'000 * kNanosPerSecond - kNanosPerMilli,
+                       1'000 * kNanosPerSecond + kNanosPerMilli, theirs};
     };
   }};
 };
 
 TEST_F(PublisherClocksTest, CorrectsTheStampsOfANodeThatAnswers) {
-  ahead_ = -3 * kSecond;
+  ahead_ = -3 * kNanosPerSecond;
   answer_ = Wall() + ahead_;
   Person("/bridge");
   ASSERT_TRUE(WaitForAnswer());
-  EXPECT_EQ(Message("/bridge"), 3 * kSecond);
+  EXPECT_EQ(Message("/bridge"), 3 * kNanosPerSecond);
   EXPECT_EQ(Message("/robot"), 0);
   const auto report = clocks_.Report();
   ASSERT_EQ(report.size(), 1U);
   EXPECT_EQ(report[0].node, "/bridge");
   EXPECT_EQ(report[0].offset->nanos, ahead_);
   EXPECT_NEAR(static_cast<double>(report[0].offset->uncertainty_nanos), 1e6, 1e4);
-  EXPECT_EQ(report[0].least_lag_nanos, 3 * kSecond + 20 * kMilli);
+  EXPECT_EQ(report[0].least_lag_nanos, 3 * kNanosPerSecond + 20 * kNanosPerMilli);
 }
 
 TEST_F(PublisherClocksTest, KnowsOfTheAgeOfTheLastAnswer) {
   answer_ = Wall();
   Person("/bridge");
   ASSERT_TRUE(WaitForAnswer());
-  monotonic_ += 50 * kSecond;
+  monotonic_ += 50 * kNanosPerSecond;
   Message("/bridge");
   answer_ = 0;
   clocks_.Update(monotonic_, wall_offset_);
@@ -83,10 +84,10 @@ TEST_F(PublisherClocksTest, FollowsThisComputersClockWhenThatIsSet) {
   Person("/bridge");
   ASSERT_TRUE(WaitForAnswer());
   answer_ = 0;
-  clocks_.OnOwnClockSet(-5 * kSecond);
-  wall_offset_ -= 5 * kSecond;
-  ahead_ = 5 * kSecond;
-  EXPECT_EQ(Message("/bridge"), -5 * kSecond);
+  clocks_.OnOwnClockSet(-5 * kNanosPerSecond);
+  wall_offset_ -= 5 * kNanosPerSecond;
+  ahead_ = 5 * kNanosPerSecond;
+  EXPECT_EQ(Message("/bridge"), -5 * kNanosPerSecond);
   EXPECT_EQ(clocks_.Report().at(0).excess_nanos, 0);
 }
 
@@ -102,12 +103,12 @@ TEST_F(PublisherClocksTest, HasRoomForPublishersOfPeopleAlone) {
 
 TEST_F(PublisherClocksTest, ForgetsANodeOneMinuteAfterItsLastMessage) {
   Person("/bridge");
-  monotonic_ += 40 * kSecond;
+  monotonic_ += 40 * kNanosPerSecond;
   Message("/bridge");
-  monotonic_ += 60 * kSecond;  // to the nanosecond
+  monotonic_ += 60 * kNanosPerSecond;  // to the nanosecond
   clocks_.Update(monotonic_, wall_offset_);
   EXPECT_EQ(clocks_.Report().size(), 1U);
-  monotonic_ += kSecond;
+  monotonic_ += kNanosPerSecond;
   clocks_.Update(monotonic_, wall_offset_);
   EXPECT_TRUE(clocks_.Report().empty());
 }

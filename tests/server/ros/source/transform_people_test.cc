@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/system/clocks.h"
 #include "server/ros/transforms.h"
 #include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
@@ -22,10 +23,9 @@ using ::testing::Pair;
 using testing::Posture;
 using ::testing::UnorderedElementsAre;
 
-constexpr std::int64_t kMilli = 1'000'000;
-constexpr std::int64_t kStart = 1'700'000'000'000 * kMilli;
-constexpr std::int64_t kSettle = 250 * kMilli;
-constexpr std::int64_t kPeriod = 10 * kMilli;
+constexpr std::int64_t kTransformsStart = 1'700'000'000'000 * kNanosPerMilli;
+constexpr std::int64_t kSettle = 250 * kNanosPerMilli;
+constexpr std::int64_t kTransformsPeriod = 10 * kNanosPerMilli;
 
 tf2_msgs::TFMessage TransformsOf(const PersonState& person, TfShape shape = TfShape::kFlat) {
   tf2_msgs::TFMessage message;
@@ -46,13 +46,13 @@ class TransformPeopleTest : public ::testing::Test {
  protected:
   PersonState PersonAt(int n, double height_m = 1.75) const {
     return MakePerson(MakeModel("skeleton", height_m), Posture(0.002 * n),
-                      static_cast<std::uint32_t>(n), kStart + n * kPeriod);
+                      static_cast<std::uint32_t>(n), kTransformsStart + n * kTransformsPeriod);
   }
 
   // The n-th message, 3 ms after its stamp.
   void Take(int n, const tf2_msgs::TFMessage& message) {
-    const std::int64_t now = kStart + n * kPeriod + 3 * kMilli;
-    people_.Take(message, {now, 1 + n * kPeriod}, counters_, sink_);
+    const std::int64_t now = kTransformsStart + n * kTransformsPeriod + 3 * kNanosPerMilli;
+    people_.Take(message, {now, 1 + n * kTransformsPeriod}, counters_, sink_);
   }
 
   // Somebody stands there already: the next samples come at once.
@@ -60,7 +60,7 @@ class TransformPeopleTest : public ::testing::Test {
     int n = -30;
     for (; sink_.samples.empty() && n < 0; ++n) Take(n, TransformsOf(PersonAt(n)));
     ASSERT_FALSE(sink_.samples.empty());
-    EXPECT_EQ(sink_.samples[0].stamp_nanos, kStart - 5 * kPeriod)
+    EXPECT_EQ(sink_.samples[0].stamp_nanos, kTransformsStart - 5 * kTransformsPeriod)
         << "a quarter of a second after -300 ms";
     sink_.samples.clear();
     counters_ = {};
@@ -78,8 +78,8 @@ TEST_F(TransformPeopleTest, ReturnsThePublishedPosesWhenAllNamesAreKnown) {
     Take(n, TransformsOf(person, n % 2 == 0 ? TfShape::kFlat : TfShape::kTree));
     ASSERT_EQ(sink_.samples.size(), static_cast<std::size_t>(n) + 1);
     const BodySample& sample = sink_.samples.back();
-    EXPECT_EQ(sample.stamp_nanos, kStart + n * kPeriod);
-    EXPECT_EQ(sample.arrival_nanos, 1 + n * kPeriod);
+    EXPECT_EQ(sample.stamp_nanos, kTransformsStart + n * kTransformsPeriod);
+    EXPECT_EQ(sample.arrival_nanos, 1 + n * kTransformsPeriod);
     for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
       const SegmentState& sent = person.sample.segments[At(segment)];
       const SegmentState& got = sample.segments[At(segment)];
@@ -102,7 +102,8 @@ TEST_F(TransformPeopleTest, BeginsAnewWhenTheClockOfTheGraphWasSetBack) {
   EXPECT_THAT(counters_.rejected, IsEmpty());
   for (std::size_t i = 20; i < 28; ++i) {
     const std::int64_t n = static_cast<std::int64_t>(i) - 18;
-    EXPECT_EQ(sink_.samples[i].stamp_nanos, kStart + n * kPeriod) << "the stamp in its headers";
+    EXPECT_EQ(sink_.samples[i].stamp_nanos, kTransformsStart + n * kTransformsPeriod)
+        << "the stamp in its headers";
     EXPECT_GE(sink_.samples[i].time_code_millis, sink_.samples[i - 1].time_code_millis);
     EXPECT_EQ(sink_.samples[i].counter, sink_.samples[i - 1].counter + 1);
   }
@@ -159,7 +160,7 @@ TEST_F(TransformPeopleTest, CountsRejectedTransformsAndContinues) {
   Settle();
   for (int n = 0; n < 7; ++n) {
     PersonState person = PersonAt(n);
-    if (n == 5) person.sample.stamp_nanos = kStart - kPeriod;  // time goes back
+    if (n == 5) person.sample.stamp_nanos = kTransformsStart - kTransformsPeriod;  // time goes back
     tf2_msgs::TFMessage message = TransformsOf(person);
     auto& transform = message.transforms[3].transform;
     if (n == 1) transform.translation.y = std::numeric_limits<double>::quiet_NaN();
@@ -178,7 +179,8 @@ TEST_F(TransformPeopleTest, CountsRejectedTransformsAndContinues) {
   EXPECT_THAT(counters_.ignored, ElementsAre(Pair("message on /tf without a person's segment", 1)));
   EXPECT_EQ(counters_.restarts, 1U);
   ASSERT_EQ(sink_.samples.size(), 3U) << "0, 5 and 6";
-  EXPECT_EQ(sink_.samples[1].stamp_nanos, kStart + 5 * kPeriod + 3 * kMilli)
+  EXPECT_EQ(sink_.samples[1].stamp_nanos,
+            kTransformsStart + 5 * kTransformsPeriod + 3 * kNanosPerMilli)
       << "by arrival from now on";
   EXPECT_GT(sink_.samples[2].stamp_nanos, sink_.samples[1].stamp_nanos);
 }
