@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urdf/turn_between.h"
+
 namespace kinescope {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr double kDiscProportion = 0.55;  // thickness of a disc, of its radius
 double DiscRadius(double mass_kg) { return std::cbrt(mass_kg / (kIron * M_PI * kDiscProportion)); }
 
 Quaterniond AlongZ(const Vector3d& direction) {
-  return Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction);
+  return urdf::TurnBetween(Vector3d::UnitZ(), direction);
 }
 
 class Maker {

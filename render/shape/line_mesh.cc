@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urdf/turn_between.h"
+
 namespace kinescope::render {
 namespace {
 
@@ -112,7 +114,7 @@ urdf::Mesh ArrowMesh(double length, double shaft, double head, double head_lengt
 }
 
 Eigen::Quaterniond AlongZ(const Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction);
+  return urdf::TurnBetween(Vector3d::UnitZ(), direction);
 }
 
 }  // namespace kinescope::render

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/palette.h"
+#include "render/shape/line_mesh.h"
 
 namespace kinescope::render {
 namespace {
@@ -24,7 +25,7 @@ void AddObject(int part, urdf::Mesh& all) {
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
     Eigen::Affine3d place(Eigen::Translation3d(0.5 * kAxisLength * along));
-    place.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along));
+    place.rotate(AlongZ(along));
     add(urdf::CylinderMesh(kAxisRadius, kAxisLength), place,
         kAxisColors[static_cast<std::size_t>(axis)]);
   }

@@ -360,8 +360,8 @@ TEST_F(WrongBrowser, ThatIsMissingIsSaidWithThePackage) {
   {
     const ScopedVariable none("KINESCOPE_CHROMIUM", ""), path("PATH", folder_.path());
     EXPECT_EQ(WhyNot(spec),
-              "page: file:///page.html: needs Chromium: install the package chromium, or set "
-              "KINESCOPE_CHROMIUM to its path");
+              "page: file:///page.html: needs Chromium: install the package "
+              "chromium-headless-shell or chromium, or set KINESCOPE_CHROMIUM to its path");
   }
   const ScopedVariable wrong("KINESCOPE_CHROMIUM", "/nothing/here");
   EXPECT_THAT(WhyNot(spec), HasSubstr("KINESCOPE_CHROMIUM=/nothing/here: is no program"));

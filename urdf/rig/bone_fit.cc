@@ -14,6 +14,7 @@
 #include "urdf/skin/bind_pose.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/skin_template.h"
+#include "urdf/turn_between.h"
 
 namespace kinescope::rig {
 namespace {
@@ -277,7 +278,7 @@ class Limb {
 
  private:
   void Turn(const Vector3d& from, const Vector3d& to) {
-    turn_ = Quaterniond::FromTwoVectors(turn_ * from, to) * turn_;
+    turn_ = urdf::TurnBetween(turn_ * from, to) * turn_;
   }
 
   const Measured &theirs_, &ours_;
@@ -316,8 +317,8 @@ void FitTrunk(const Measured& theirs, const Measured& ours, Fit& fit) {
   const int top = theirs.Has(urdf::kNeck) ? urdf::kNeck : urdf::kHead;
   const Vector3d hips = theirs.MidHips(), our_hips = ours.MidHips();
   const Vector3d spine = theirs[top] - hips, our_spine = ours[top] - our_hips;
-  const Matrix3d linear = Stretched(Quaterniond::FromTwoVectors(spine, our_spine), spine,
-                                    our_spine.norm() / spine.norm());
+  const Matrix3d linear =
+      Stretched(urdf::TurnBetween(spine, our_spine), spine, our_spine.norm() / spine.norm());
   fit.fill(About(hips, linear, our_hips));
   const auto width = [](const Measured& of) {
     return (of[urdf::kLeftUpperLeg] - of[urdf::kRightUpperLeg]).norm();
@@ -331,8 +332,8 @@ void FitTrunk(const Measured& theirs, const Measured& ours, Fit& fit) {
     const double length = neck.norm();
     fit[urdf::kNeck] = About(theirs[urdf::kNeck],
                              length < 1e-3 ? Matrix3d(Matrix3d::Identity())
-                                           : Stretched(Quaterniond::FromTwoVectors(neck, our_neck),
-                                                       neck, our_neck.norm() / length),
+                                           : Stretched(urdf::TurnBetween(neck, our_neck), neck,
+                                                       our_neck.norm() / length),
                              ours[urdf::kNeck]);
   }
   fit[urdf::kHead] = About(theirs[urdf::kHead], Matrix3d::Identity(), ours[urdf::kHead]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urdf/turn_between.h"
+
 namespace kinescope::skin {
 namespace {
 
@@ -49,8 +51,7 @@ JointTurn Split(int segment, const Quaterniond& parent_from_child) {
   }
   const Vector3d axis(turn.towards.y(), -turn.towards.x(), 0);
   turn.rise = Quaterniond(Eigen::AngleAxisd(turn.risen, axis));
-  const Quaterniond swing =
-      Quaterniond::FromTwoVectors(turn.rise * Vector3d::UnitZ(), bone) * turn.rise;
+  const Quaterniond swing = urdf::TurnBetween(turn.rise * Vector3d::UnitZ(), bone) * turn.rise;
   turn.rest = turn.rise.conjugate() * swing;
   turn.twist = Quaterniond(
       Eigen::AngleAxisd(TwistAngle(swing.conjugate() * parent_from_child), Vector3d::UnitZ()));

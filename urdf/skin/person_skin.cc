@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "urdf/skin/frames.h"
+#include "urdf/turn_between.h"
 
 namespace kinescope::skin {
 namespace {
@@ -54,7 +55,7 @@ Matrix3d Stretch(const Vector3d& bone, const Vector3d& other, double girth) {
   const Matrix3d project = along * along.transpose();
   const Matrix3d scale =
       girth * (Matrix3d::Identity() - project) + other.norm() / bone.norm() * project;
-  return Eigen::Quaterniond::FromTwoVectors(bone, other).toRotationMatrix() * scale;
+  return urdf::TurnBetween(bone, other).toRotationMatrix() * scale;
 }
 
 Matrix3d StretchOf(int segment, const urdf::Skeleton& from, const urdf::Skeleton& to,

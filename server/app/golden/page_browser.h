@@ -19,8 +19,9 @@
 
 namespace kinescope::app {
 
-/// The program of KINESCOPE_CHROMIUM, else chromium, chromium-browser, google-chrome or
-/// google-chrome-stable of PATH. @throws std::runtime_error with what to do if there is none.
+/// The program of KINESCOPE_CHROMIUM, else chromium-headless-shell, chromium, chromium-browser,
+/// google-chrome or google-chrome-stable of PATH. @throws std::runtime_error with what to do if
+/// there is none.
 std::filesystem::path FindChromium();
 
 /// A call was refused by the browser; what() is its reason.
