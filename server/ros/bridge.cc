@@ -361,16 +361,9 @@ void RequireOneOf(const char* option, const std::string& value,
       fmt::format("--{}={}: expected one of {}", option, value, fmt::join(allowed, ", ")));
 }
 
-// Two packets in a row that a network loses cost 3 s before TCP sends them again. Where nobody
-// listens the answer is there at once.
-constexpr std::chrono::seconds kRequiredPatience{10};
-
 void RequireMaster() {
   MasterClient master;
-  if (master.Call("getPid", XmlRpc::XmlRpcValue(), kRequiredPatience).code ==
-      MasterReply::Code::kGood) {
-    return;
-  }
+  if (master.Call("getPid", XmlRpc::XmlRpcValue()).code == MasterReply::Code::kGood) return;
   if (!master.problem().empty()) {
     throw UsageError(
         fmt::format("--ros=required: the server at {} does not answer as a ROS master: it {}; set "

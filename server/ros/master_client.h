@@ -16,8 +16,8 @@ class XmlRpcClient;
 namespace kinescope::ros_bridge {
 
 inline constexpr std::chrono::seconds kAskMasterEvery{1};  // interval of the registration check
-inline constexpr std::chrono::seconds kMasterPatience{
-    3};  // the master of a busy machine may take a second to answer
+// The master of a busy machine may take a second to answer, and so does a packet that was lost.
+inline constexpr std::chrono::seconds kMasterPatience{3};
 
 /// Of all calls together while the program ends.
 inline constexpr std::chrono::milliseconds kLastPatience{1500};
