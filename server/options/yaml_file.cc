@@ -12,6 +12,8 @@ namespace {
 // Reads a document without keeping anything of it.
 class YamlLimits : public YAML::EventHandler {
  public:
+  explicit YamlLimits(int deepest) : deepest_(deepest) {}
+
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (std::exchange(has_begun_, true)) {
       throw YAML::ParserException(mark, "a second document; remove the line '---' before it");
@@ -37,36 +39,37 @@ class YamlLimits : public YAML::EventHandler {
 
  private:
   void Enter(const YAML::Mark& mark) {
-    constexpr int kDeepest = 16;
-    if (++depth_ > kDeepest) throw YAML::ParserException(mark, "too many levels; at most 16");
+    if (++depth_ <= deepest_) return;
+    throw YAML::ParserException(mark, "too many levels; at most " + std::to_string(deepest_));
   }
 
+  const int deepest_;
   int depth_ = 0;
   bool has_begun_ = false;
 };
 
 }  // namespace
 
-YAML::Node ParseYaml(const std::string& text) {
+YAML::Node ParseYaml(const std::string& text, int deepest) {
   if (text.size() > kMaxYamlBytes) {
     throw YAML::ParserException(YAML::Mark(),
                                 "too long; at most " + std::to_string(kMaxYamlBytes) + " bytes");
   }
   std::istringstream stream(text);
-  YamlLimits limits;
+  YamlLimits limits(deepest);
   YAML::Parser parser(stream);
   while (parser.HandleNextDocument(limits)) {
   }
   return YAML::Load(text);
 }
 
-YAML::Node LoadYaml(const std::string& path) {
+YAML::Node LoadYaml(const std::string& path, int deepest) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMaxYamlBytes + 1, '\0');  // it may be a pipe or a device without an end
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.empty() && !file.eof()) throw YAML::BadFile(path);
-  return ParseYaml(text);
+  return ParseYaml(text, deepest);
 }
 
 std::string ToYaml(const std::vector<YamlLine>& lines) {

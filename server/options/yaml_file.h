@@ -13,11 +13,14 @@ namespace kinescope::options {
 
 inline constexpr std::size_t kMaxYamlBytes = 1 << 20;
 
-/// The only document of `text`. @throws YAML::Exception with the line and the reason.
-YAML::Node ParseYaml(const std::string& text);
+inline constexpr int kDeepestYaml = 16;  // levels of what people write
+
+/// The only document of `text`, of at most `deepest` levels. @throws YAML::Exception with the line
+/// and the reason.
+YAML::Node ParseYaml(const std::string& text, int deepest = kDeepestYaml);
 
 /// As ParseYaml(). @throws YAML::BadFile, too, if `path` cannot be read.
-YAML::Node LoadYaml(const std::string& path);
+YAML::Node LoadYaml(const std::string& path, int deepest = kDeepestYaml);
 
 struct YamlLine {
   std::string name;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,18 +22,36 @@ bool IsKeyFile(const std::string& camera) {
   return extension == ".yaml" || extension == ".yml";
 }
 
+// "X,Y,Z:X,Y,Z": position and target; with a third one, what is up in the picture.
+render::Camera ParsePlace(const std::string& text) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    const auto point = ParsePoint(text.substr(at, end - at));
+    if (!point || points.size() == 3) throw BadValue("expected X,Y,Z:X,Y,Z, in m");
+    points.push_back(*point);
+    at = end + 1;
+  }
+  if (points.size() < 2) throw BadValue("expected X,Y,Z:X,Y,Z, in m");
+  auto camera = CameraFromTo(points[0], points[1]);
+  if (!camera) throw BadValue("expected a position that differs from the target");
+  if (points.size() < 3) return *camera;
+  const Eigen::Vector3d ahead = points[1] - points[0];
+  if (points[2].cross(ahead).norm() < 1e-6 * ahead.norm()) {
+    throw BadValue(
+        "expected as third point a direction that is up in the picture, across the view");
+  }
+  camera->up = points[2];
+  return *camera;
+}
+
 }  // namespace
 
 CameraChoice ParseCamera(const std::string& text) {
   CameraChoice choice{text, std::nullopt, IsKeyFile(text)};
   if (choice.is_key_file) return choice;
-  const std::size_t colon = text.find(':');
-  if (colon != std::string::npos) {
-    const auto position = ParsePoint(text.substr(0, colon));
-    const auto target = ParsePoint(text.substr(colon + 1));
-    if (!position || !target) throw BadValue("expected X,Y,Z:X,Y,Z, in m");
-    choice.place = CameraFromTo(*position, *target);
-    if (!choice.place) throw BadValue("expected a position that differs from the target");
+  if (text.find(':') != std::string::npos) {
+    choice.place = ParsePlace(text);
     return choice;
   }
   for (const std::string& name : render::CameraNames()) {

@@ -348,6 +348,37 @@ void WriteYaml(const fs::path& options, const fs::path& keys) {
   Write(keys / "not_finite", "keys: [{time: .inf, position: [.nan, 1e999, 0], target: [0, 0, 0]}]");
 }
 
+void WriteRviz(const fs::path& folder) {
+  const std::string begin = "Visualization Manager:\n";
+  Write(folder / "every_kind",
+        begin +
+            "  Global Options: {Background Color: 177; 255; 255, Fixed Frame: /odom, Default "
+            "Light: 0}\n"
+            "  Displays:\n"
+            "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
+            "    - {Class: rviz/TF, Enabled: true, Name: TF}\n"
+            "    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.5}\n"
+            "    - {Class: rviz/RobotModel, Enabled: true, Visual Enabled: false}\n"
+            "    - {Class: rviz/MarkerArray, Enabled: true, Namespaces: {com: false}}\n"
+            "    - Class: rviz/Group\n"
+            "      Enabled: true\n"
+            "      Displays: [{Class: rviz/Path, Value: true, Name: \"a\\e[31m\"}]\n"
+            "Panels: [{Class: rviz/Time, SyncMode: 1}]\n");
+  for (const char* view :
+       {"rviz/Orbit", "rviz/XYOrbit", "rviz/FPS", "rviz/TopDownOrtho", "plugin/Own"}) {
+    Write(folder / ("view_" + fs::path(view).filename().string()),
+          begin + "  Views: {Current: {Class: " + view +
+              ", Distance: 1e999, Yaw: .nan, Pitch: -9, Scale: 0, Angle: 1e300, X: 1e5, Target "
+              "Frame: a,\n"
+              "    Focal Point: {X: 1, Y: -2, Z: 3e2}, Position: {X: 1, Y: 2}, Invert Z Axis: "
+              "true}}\n");
+  }
+  Write(folder / "of_rviz_2", begin + "  Displays: [{Class: rviz_common/Group}]\n");
+  Write(folder / "deep", begin + "  Displays: " + std::string(2000, '['));
+  Write(folder / "scalar_lists",
+        begin + "  Displays: 7\n  Views: [1]\n  Global Options: x\nPanels: {}\n");
+}
+
 void WriteBags(const fs::path& folder) {
   using namespace fuzz;
   // Messages out of order, of a topic that is read and one that is not, and of none.
@@ -536,5 +567,6 @@ int main(int argc, char** argv) {
   WriteOptions(folder / "options");
   WritePoses(folder / "pose");
   WriteYaml(folder / "yaml_options", folder / "camera_keys");
+  WriteRviz(folder / "rviz");
   return 0;
 }

@@ -110,6 +110,33 @@ TEST_F(RenderCommand, WritesEveryFormatAndCameraInOnePass) {
   EXPECT_EQ(Decode(Path("top.webm")).size(), 3u);
 }
 
+TEST_F(RenderCommand, TakesCameraAndBackgroundFromAConfigurationOfRviz) {
+  std::ofstream(Path("lab.rviz")) << "Visualization Manager:\n"
+                                     "  Displays:\n"
+                                     "    - {Class: rviz/RobotModel, Enabled: true, Name: Person}\n"
+                                     "    - {Class: rviz/Path, Enabled: true, Name: Plan}\n"
+                                     "  Global Options: {Background Color: 10; 20; 30}\n"
+                                     "  Views: {Current: {Class: rviz/TopDownOrtho, Scale: 40}}\n";
+  const ProgramResult taken =
+      Render({"--rviz", Path("lab.rviz"), "--time", "0", "--no_overlays", "--out", Path("a.png")});
+  ASSERT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_THAT(taken.err, HasSubstr("lab.rviz:4: rviz/Path 'Plan' is not drawn"));
+  const render::Image picture = render::ReadPng(Path("a.png"));
+  EXPECT_THAT(std::vector<std::uint8_t>(picture.rgba.begin(), picture.rgba.begin() + 3),
+              ElementsAre(10, 20, 30));
+  const Json options = Json::parse(ReadFile(Path("a.png.json"))).at("options");
+  EXPECT_EQ(options.at("projection"), "orthographic");
+  EXPECT_EQ(options.at("figure"), "urdf");
+
+  const ProgramResult own = Render({"--rviz", Path("lab.rviz"), "--time", "0", "--camera", "front",
+                                    "--figure", "skin", "--out", Path("b.png")});
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  const Json ours = Json::parse(ReadFile(Path("b.png.json"))).at("options");
+  EXPECT_EQ(ours.at("camera"), "front");
+  EXPECT_EQ(ours.at("projection"), "perspective") << "that of the file is of its own camera";
+  EXPECT_EQ(ours.at("figure"), "skin");
+}
+
 TEST_F(RenderCommand, WritesTheSameBytesWithAnyNumberOfJobs) {
   for (const std::string jobs : {"1", "3"}) {
     const auto lines =

@@ -111,8 +111,9 @@ Command RenderCommand(const std::shared_ptr<DrawPools>& pools) {
       [values = values.get()] { return !values->outs->empty() && AreStills(*values->outs); });
   command.positionals = {"source"};
   command.reads = {"source", "verify"};
-  command.run = [values, pools](options::OptionList&) {
+  command.run = [values, pools](options::OptionList& list) {
     if (!values->verify->empty()) return Verify(*values->verify, *values);
+    ApplyRviz(values->rviz, ToPictureSpec(values->view).height, list);
     Render(*values, *pools);
     return 0;
   };

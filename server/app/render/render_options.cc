@@ -151,6 +151,7 @@ void RenderOptions::List(options::OptionList& option) {
   clip.List(option);
   pack.List(option);
   option("marks", marks, kMarksHelp);
+  option("rviz", rviz, kRvizHelp);
   view.List(option);
   backend.List(option);
   person.List(option);

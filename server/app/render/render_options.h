@@ -10,6 +10,7 @@
 #include "server/app/marks_value.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
+#include "server/picture/rviz_option.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_options.h"
 
@@ -73,6 +74,7 @@ struct RenderOptions {
   PersonOptions person;
   LoadOptions loads;
   MarksValue marks;
+  RvizValue rviz;
   options::Whole jobs;  // 0: as many as are fastest here
   options::Flag force, no_sidecar, json;
   options::Text verify;  // a file; "": draws

@@ -58,6 +58,7 @@ Command Make(const char* name, const char* about, bool with_page) {
     if (const options::Option* token = list.Find("viewer_token")) {
       values->viewer_token_given_as = token->given_as;
     }
+    if (with_page) ApplyRviz(values->rviz, values->picture_size->height, list);
     ServeConfig config = MakeServeConfig(*values, with_page);
     // A terminal is read by the person who opens the page; anything else may be a log that stays.
     config.shows_token = ::isatty(STDERR_FILENO) == 1;

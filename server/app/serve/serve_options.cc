@@ -202,6 +202,7 @@ void ServeOptions::List(options::OptionList& option) {
   option("pictures", pictures, "whether the server draws pictures");
   option("camera", camera, "where the camera stands");
   camera_moves.List(option);
+  option("rviz", rviz, kRvizHelp);
   option("picture_size", picture_size, "size of the live picture");
   option("picture_rate_hz", picture_rate_hz, "highest frame rate of the live picture");
   backend.List(option);

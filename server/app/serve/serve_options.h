@@ -8,6 +8,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
+#include "server/picture/rviz_option.h"
 #include "server/picture/trail_options.h"
 #include "server/picture/view_options.h"
 #include "server/ros/bridge.h"
@@ -63,6 +64,7 @@ struct ServeOptions {
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;
+  RvizValue rviz;
   options::Size picture_size;
   options::Number picture_rate_hz;
   BackendOptions backend;

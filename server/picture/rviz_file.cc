@@ -1,0 +1,259 @@
+#include "server/picture/rviz_file.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
+#include "core/system/utf8.h"
+#include "server/options/text.h"
+#include "server/options/yaml_file.h"
+#include "server/picture/rviz_values.h"
+#include "server/picture/rviz_view.h"
+
+namespace kinescope::app {
+namespace {
+
+using rviz::BoolOf;
+using rviz::LineOf;
+using rviz::Member;
+using rviz::TextOf;
+
+constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
+constexpr std::size_t kMostRemarks = 200;
+constexpr double kDarkest = 48.0 / 255;  // RViz's own background
+constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
+constexpr double kFarthest = 1000;       // m, of a camera
+// Namespaces of our markers, which are the names of the parts that they show.
+constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
+
+// A text of the file may be long, and must do nothing to a terminal.
+std::string Shown(const std::string& text) {
+  constexpr std::size_t kLongest = 300;  // bytes
+  return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
+}
+
+std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
+
+class RvizReader {
+ public:
+  RvizReader(std::string path, int height_px) : path_(std::move(path)), height_px_(height_px) {}
+
+  RvizPicture Read(const YAML::Node& root) {
+    const YAML::Node manager = Member(root, "Visualization Manager");
+    if (!manager.IsDefined() || !manager.IsMap()) {
+      throw UsageError(path_ + ": is no configuration of RViz: it has no 'Visualization Manager'");
+    }
+    ReadGlobalOptions(manager);
+    ReadDisplays(Member(manager, "Displays"), true);
+    SetParts(LineOf(manager));
+    ReadView(manager);
+    ReadTime(Member(root, "Panels"));
+    return std::move(picture_);
+  }
+
+ private:
+  void Set(const char* option, std::string text, int line) {
+    picture_.settings.push_back({option, std::move(text), line});
+  }
+
+  void Remark(const YAML::Node& node, const std::string& what) {
+    if (picture_.remarks.size() < kMostRemarks) {
+      picture_.remarks.push_back(fmt::format("{}:{}: {}", path_, LineOf(node), Shown(what)));
+    } else if (picture_.remarks.size() == kMostRemarks) {
+      picture_.remarks.push_back(path_ + ": and more that is not drawn");
+    }
+  }
+
+  // A class of RViz 2 says so in its name.
+  void RefuseOther(const YAML::Node& node, const std::string& kind) {
+    if (!StartsWith(kind, "rviz_common/") && !StartsWith(kind, "rviz_default_plugins/")) return;
+    throw UsageError(fmt::format("{}:{}: is a configuration of RViz 2 ({}); save one with RViz 1",
+                                 path_, LineOf(node), Quoted(kind)));
+  }
+
+  void ReadGlobalOptions(const YAML::Node& manager) {
+    const YAML::Node all = Member(manager, "Global Options");
+    const YAML::Node background = Member(all, "Background Color");
+    const int line = LineOf(background.IsDefined() ? background : manager);
+    auto rgb = rviz::ColorOf(all, "Background Color", {kDarkest, kDarkest, kDarkest});
+    if (!rgb) {
+      Remark(background, "Background Color " + Quoted(TextOf(all, "Background Color", "")) +
+                             " is no r; g; b or #rrggbb; RViz's own is taken");
+      rgb = Rgb{kDarkest, kDarkest, kDarkest};
+    }
+    const auto level = [&](std::size_t i) { return std::lround(255 * (*rgb)[i]); };
+    Set("background", fmt::format("#{:02x}{:02x}{:02x}", level(0), level(1), level(2)), line);
+    const double luma = 0.2126 * (*rgb)[0] + 0.7152 * (*rgb)[1] + 0.0722 * (*rgb)[2];
+    Set("theme", luma < 0.4 ? "dark" : "light", line);
+    fixed_frame_ = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
+    if (fixed_frame_ != "world" && fixed_frame_ != "map") {
+      Remark(all, "Fixed Frame " + Quoted(fixed_frame_) +
+                      ": the picture is drawn in the world of the source, as in 'world'");
+    }
+    if (!BoolOf(all, "Default Light", true)) {
+      Remark(all, "Default Light is off; bodies are lit all the same");
+    }
+  }
+
+  void ReadDisplays(const YAML::Node& displays, bool is_on) {
+    if (!displays.IsDefined() || !displays.IsSequence()) return;
+    for (const YAML::Node& display : displays) {
+      const std::string kind = TextOf(display, "Class", "");
+      RefuseOther(display, kind);
+      const bool is_shown = is_on && BoolOf(display, "Enabled", BoolOf(display, "Value", false));
+      if (kind == "rviz/Group") {
+        ReadDisplays(Member(display, "Displays"), is_shown);
+      } else if (is_shown) {
+        ReadDisplay(display, kind);
+      }
+    }
+  }
+
+  void ReadDisplay(const YAML::Node& display, const std::string& kind) {
+    const std::string called =
+        fmt::format("{} {}", kind.empty() ? "a display without a Class" : kind,
+                    Quoted(TextOf(display, "Name", "")));
+    if (kind == "rviz/Grid") {
+      const std::string plane = TextOf(display, "Plane", "XY");
+      has_grid_ = has_grid_ || plane == "XY";
+      if (plane != "XY") Remark(display, called + " is no floor, and is not drawn: Plane " + plane);
+    } else if (kind == "rviz/RobotModel") {
+      ReadRobotModel(display, called);
+    } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
+      ReadMarkers(display);
+    } else if (kind == "rviz/TF") {
+      has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
+      if (BoolOf(display, "Show Names", true) || BoolOf(display, "Show Arrows", true)) {
+        Remark(display, called + ": names and arrows are not drawn, axes those of people's links");
+      }
+    } else {
+      Remark(display, called + " is not drawn");
+    }
+  }
+
+  void ReadRobotModel(const YAML::Node& display, const std::string& called) {
+    if (!BoolOf(display, "Visual Enabled", true)) {
+      Remark(display, called + ": collision geometry is not drawn");
+      return;
+    }
+    if (has_model_) {
+      Remark(display, called + " is another model: give the URDF of a robot as --robot");
+      return;
+    }
+    has_model_ = true;
+    if (rviz::NumberOf(display, "Alpha", 1, 0, 1) < 1) {
+      Remark(display, called + ": Alpha is not taken, bodies are opaque");
+    }
+  }
+
+  // Parts are drawn that some display shows.
+  void ReadMarkers(const YAML::Node& display) {
+    has_markers_ = true;
+    const YAML::Node namespaces = Member(display, "Namespaces");
+    for (const char* part : kMarkerParts) {
+      if (BoolOf(namespaces, part, true)) shown_parts_.insert(part);
+    }
+  }
+
+  void SetParts(int line) {
+    Set("floor", has_grid_ ? "on" : "off", line);
+    Set("figure", "urdf", line);
+    std::string hidden = "shadows";  // RViz has none
+    if (!has_model_) hidden += ",body";
+    if (!has_markers_) hidden += ",markers";
+    for (const char* part : kMarkerParts) {
+      if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
+    }
+    Set("hide", hidden, line);
+    if (has_frames_) Set("show", "link_frames", line);
+  }
+
+  void ReadView(const YAML::Node& manager) {
+    const YAML::Node current = Member(Member(manager, "Views"), "Current");
+    const YAML::Node& place = current.IsDefined() ? current : manager;
+    RefuseOther(place, TextOf(current, "Class", ""));
+    const rviz::View view = rviz::ViewOf(current, height_px_);
+    if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
+    const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
+    if (target != "<Fixed Frame>" && target != fixed_frame_) {
+      Remark(place, "the view's Target Frame " + Quoted(target) +
+                        " is not followed; the camera stands as if it were at the origin");
+    }
+    const render::Camera& camera = view.camera;
+    if (std::max(camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff()) >
+        kFarthest) {
+      Remark(place,
+             fmt::format("the camera is more than {} m away; ours stays where it is", kFarthest));
+      return;
+    }
+    SetCamera(camera, LineOf(place));
+  }
+
+  void SetCamera(render::Camera camera, int line) {
+    const Eigen::Vector3d ahead = camera.target - camera.position;  // RViz goes as near as 1 mm
+    camera.target = camera.position + std::max(1.0, kLeastAhead / ahead.norm()) * ahead;
+    const auto point = [](const Eigen::Vector3d& p) {
+      return fmt::format("{},{},{}", options::NumberText(p.x()), options::NumberText(p.y()),
+                         options::NumberText(p.z()));
+    };
+    Set("camera", point(camera.position) + ":" + point(camera.target) + ":" + point(camera.up),
+        line);
+    double fov = camera.vertical_fov_rad;
+    if (camera.is_orthographic()) {
+      fov = 2 * std::atan2(0.5 * camera.ortho_height_m, (camera.position - camera.target).norm());
+    }
+    Set("fov", options::NumberText(std::clamp(fov * 180 / M_PI, 1.0, 150.0)), line);
+    Set("projection", camera.is_orthographic() ? "orthographic" : "perspective", line);
+  }
+
+  void ReadTime(const YAML::Node& panels) {
+    if (!panels.IsDefined() || !panels.IsSequence()) return;
+    for (const YAML::Node& panel : panels) {
+      if (TextOf(panel, "Class", "") != "rviz/Time") continue;
+      if (TextOf(panel, "SyncMode", "0") == "0") continue;
+      Remark(panel, "the Time panel's SyncMode is not taken: all are of the time of the picture");
+    }
+  }
+
+  static std::string WithoutSlash(std::string frame) {
+    if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
+    return frame;
+  }
+
+  const std::string path_;
+  const int height_px_;
+  RvizPicture picture_;
+  std::string fixed_frame_;
+  bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
+  std::set<std::string> shown_parts_;
+};
+
+template <class Load>
+RvizPicture Read(const std::string& path, int height_px, const Load& load) {
+  try {
+    return RvizReader(path, height_px).Read(load());
+  } catch (const YAML::BadFile&) {
+    throw UsageError(path + ": cannot read this file");
+  } catch (const YAML::Exception& error) {
+    throw UsageError(
+        fmt::format("{}:{}: not valid YAML ({})", path, error.mark.line + 1, error.msg));
+  }
+}
+
+}  // namespace
+
+RvizPicture ReadRvizFile(const std::string& path, int height_px) {
+  return Read(path, height_px, [&] { return options::LoadYaml(path, kDeepest); });
+}
+
+RvizPicture ParseRvizFile(const std::string& path, const std::string& text, int height_px) {
+  return Read(path, height_px, [&] { return options::ParseYaml(text, kDeepest); });
+}
+
+}  // namespace kinescope::app

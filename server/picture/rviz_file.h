@@ -1,0 +1,27 @@
+/// Reads a configuration of RViz 1 (`.rviz`) as options of ours: camera, background, floor and the
+/// parts of people. docs/rviz_files.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kinescope::app {
+
+struct RvizPicture {
+  /// An option, as if it stood in a file of options.
+  struct Setting {
+    std::string option, text;
+    int line = 1;  // of the file
+  };
+  std::vector<Setting> settings;  // each option at most once
+  std::vector<std::string>
+      remarks;  // "FILE:LINE: what": what RViz draws and we do not, or otherwise
+};
+
+/// @param height_px  of the picture: a view from above counts in pixels per metre
+/// @throws UsageError "FILE: why" or "FILE:LINE: why": it cannot be read, or is none of RViz 1
+RvizPicture ReadRvizFile(const std::string& path, int height_px);
+/// `text`: the content of `path`, which is not opened.
+RvizPicture ParseRvizFile(const std::string& path, const std::string& text, int height_px);
+
+}  // namespace kinescope::app

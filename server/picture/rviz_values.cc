@@ -1,0 +1,101 @@
+#include "server/picture/rviz_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+#include "server/options/text.h"
+
+namespace kinescope::app::rviz {
+namespace {
+
+constexpr double kMostLevel = 255;  // of a colour
+
+Rgb ToRgb(const std::array<double, 3>& levels) {
+  const auto share = [](double level) { return std::clamp(level, 0.0, kMostLevel) / kMostLevel; };
+  return {share(levels[0]), share(levels[1]), share(levels[2])};
+}
+
+std::optional<Rgb> ParseHex(const std::string& text) {
+  unsigned r = 0, g = 0, b = 0;
+  int end = 0;
+  const bool is_read =
+      text.size() == 7 && std::sscanf(text.c_str(), "#%2x%2x%2x%n", &r, &g, &b, &end) == 3;
+  if (!is_read || end != 7) return std::nullopt;
+  return ToRgb({static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)});
+}
+
+// "177; 255; 255".
+std::optional<Rgb> ParseLevels(const std::string& text) {
+  const std::vector<std::string> items = options::SplitItems(text);
+  std::array<double, 3> levels{};
+  if (items.size() != levels.size()) return std::nullopt;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto number = options::ParseNumber(items[i]);
+    if (!number) return std::nullopt;
+    levels[i] = *number;
+  }
+  return ToRgb(levels);
+}
+
+// The text of a property; one that has children has its own beside them.
+std::optional<std::string> ScalarOf(const YAML::Node& map, const std::string& name) {
+  YAML::Node value = Member(map, name);
+  if (value.IsDefined() && value.IsMap()) value = Member(value, "Value");
+  if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
+  return value.Scalar();
+}
+
+}  // namespace
+
+YAML::Node Member(const YAML::Node& map, const std::string& name) {
+  const YAML::Node none(YAML::NodeType::Undefined);
+  if (!map.IsDefined() || !map.IsMap()) return none;
+  const YAML::Node value = map[name];
+  return value.IsDefined() ? value : none;
+}
+
+std::string TextOf(const YAML::Node& map, const std::string& name, const std::string& otherwise) {
+  return ScalarOf(map, name).value_or(otherwise);
+}
+
+bool BoolOf(const YAML::Node& map, const std::string& name, bool otherwise) {
+  std::string text = TextOf(map, name, otherwise ? "true" : "false");
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return !text.empty() && text != "0" && text != "false";
+}
+
+double NumberOf(const YAML::Node& map, const std::string& name, double otherwise, double least,
+                double most) {
+  const auto text = ScalarOf(map, name);
+  if (!text) return otherwise;
+  return std::clamp(options::ParseNumber(*text).value_or(0), least, most);
+}
+
+Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name) {
+  const YAML::Node value = Member(map, name);
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string text = TextOf(value, std::string(1, "XYZ"[axis]), "");
+    const auto number = options::ParseNumber(text);
+    if (!number) return Eigen::Vector3d::Zero();
+    vector[axis] = *number;
+  }
+  return vector;
+}
+
+std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise) {
+  const auto text = ScalarOf(map, name);
+  if (!text) return otherwise;
+  const auto levels = ParseLevels(*text);
+  return levels ? levels : ParseHex(*text);
+}
+
+int LineOf(const YAML::Node& node) { return node.Mark().line + 1; }
+
+}  // namespace kinescope::app::rviz

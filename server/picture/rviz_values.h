@@ -1,0 +1,32 @@
+/// Values of an RViz configuration as RViz 1.14 reads them: each is a text, which the property
+/// that it meets converts; what cannot be converted is a default and no error. Pure functions.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "core/suit_colors.h"
+
+namespace kinescope::app::rviz {
+
+/// Member `name` of a map. Not defined: `map` is no map, or has none of that name.
+YAML::Node Member(const YAML::Node& map, const std::string& name);
+
+std::string TextOf(const YAML::Node& map, const std::string& name, const std::string& otherwise);
+/// As Qt has it: "", 0 and false are false, all other texts are true.
+bool BoolOf(const YAML::Node& map, const std::string& name, bool otherwise);
+/// 0 for what is no number, within `least` and `most`.
+double NumberOf(const YAML::Node& map, const std::string& name, double otherwise, double least,
+                double most);
+/// 0 unless X, Y and Z are numbers.
+Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name);
+/// "r; g; b", each from 0 to 255, or #rrggbb; nullopt: neither.
+std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise);
+
+/// From 1.
+int LineOf(const YAML::Node& node);
+
+}  // namespace kinescope::app::rviz

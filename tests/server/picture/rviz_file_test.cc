@@ -1,0 +1,232 @@
+#include "server/picture/rviz_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "core/system/errors.h"
+#include "render/camera/camera.h"
+#include "server/picture/camera_options.h"
+#include "tests/shared_data.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using kinescope::testing::SharedData;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr int kPictureWidth = 800, kPictureHeight = 600;  // px
+
+std::map<std::string, std::string> SettingsOf(const RvizPicture& picture) {
+  std::map<std::string, std::string> settings;
+  for (const auto& each : picture.settings) {
+    EXPECT_TRUE(settings.emplace(each.option, each.text).second) << each.option << " twice";
+  }
+  return settings;
+}
+
+RvizPicture ReadText(const std::string& text) {
+  return ParseRvizFile("saved.rviz", text, kPictureHeight);
+}
+
+/// A configuration with these displays, and more lines of the manager.
+std::string WithDisplays(const std::string& displays, const std::string& more = "") {
+  return "Visualization Manager:\n  Displays:\n" + displays + more;
+}
+
+std::string WithView(const std::string& lines) {
+  return "Visualization Manager:\n  Views:\n    Current:\n" + lines;
+}
+
+/// The camera as the options of a picture make it.
+render::Camera CameraOf(const std::string& view) {
+  const auto settings = SettingsOf(ReadText(WithView(view)));
+  render::Camera camera = ParseCamera(settings.at("camera")).place.value();
+  camera.vertical_fov_rad = std::stod(settings.at("fov")) * M_PI / 180;
+  return settings.at("projection") == "orthographic" ? render::Orthographic(camera) : camera;
+}
+
+render::Projected Seen(const Vector3d& point, const render::Camera& camera) {
+  return render::Project(point, camera, kPictureWidth, kPictureHeight);
+}
+
+std::string RefusalOfText(const std::string& text) {
+  try {
+    ReadText(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+TEST(RvizFile, SaysBackgroundFloorAndPartsAsOptions) {
+  const auto settings = SettingsOf(ReadText(WithDisplays(
+      "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
+      "    - {Class: rviz/RobotModel, Enabled: true, Name: Person}\n"
+      "    - {Class: rviz/TF, Enabled: true, Name: TF, Show Names: false, Show Arrows: false}\n"
+      "    - {Class: rviz/MarkerArray, Enabled: true, Name: Loads, Namespaces: {com: false}}\n",
+      "  Global Options: {Background Color: 177; 255; 255, Fixed Frame: /world}\n")));
+  EXPECT_EQ(settings.at("background"), "#b1ffff");
+  EXPECT_EQ(settings.at("theme"), "light");
+  EXPECT_EQ(settings.at("floor"), "on");
+  EXPECT_EQ(settings.at("figure"), "urdf");
+  EXPECT_EQ(settings.at("hide"), "shadows,com");
+  EXPECT_EQ(settings.at("show"), "link_frames");
+}
+
+TEST(RvizFile, HidesWhatNoDisplayShows) {
+  const auto settings = SettingsOf(ReadText(WithDisplays("    []\n")));
+  EXPECT_EQ(settings.at("background"), "#303030") << "RViz's own";
+  EXPECT_EQ(settings.at("theme"), "dark");
+  EXPECT_EQ(settings.at("floor"), "off");
+  EXPECT_EQ(settings.at("hide"), "shadows,body,markers,loads,com,cop,support,forces,hand_loads");
+  EXPECT_EQ(settings.count("show"), 0U);
+}
+
+TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
+  const RvizPicture picture = ReadText(
+      WithDisplays("    - {Class: rviz/Path, Enabled: true, Name: Plan}\n"
+                   "    - {Class: rviz/Map, Enabled: false, Name: Map}\n"
+                   "    - Class: rviz/Group\n"
+                   "      Enabled: false\n"
+                   "      Displays: [{Class: rviz/Odometry, Enabled: true, Name: Wheels}]\n"
+                   "    - Class: rviz/Group\n"
+                   "      Enabled: true\n"
+                   "      Displays: [{Class: jsk/Overlay, Enabled: no, Name: Words}]\n"
+                   "    - {class: rviz/Image, Enabled: true, Name: lower case}\n"));
+  EXPECT_THAT(picture.remarks,
+              ElementsAre("saved.rviz:3: rviz/Path 'Plan' is not drawn",
+                          "saved.rviz:10: jsk/Overlay 'Words' is not drawn",
+                          "saved.rviz:11: a display without a Class 'lower case' is not drawn",
+                          HasSubstr("the current view has no Class")));
+}
+
+// Found by the fuzzer.
+TEST(RvizFile, SaysNothingThatATerminalObeys) {
+  const RvizPicture picture = ReadText(
+      WithDisplays("    - {Class: \"plugin/\\e[31m\", Enabled: true, Name: \"two\\nlines\"}\n"));
+  EXPECT_THAT(picture.remarks, Each(::testing::Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(picture.remarks, Each(::testing::Not(HasSubstr("\n"))));
+}
+
+TEST(RvizFile, OrbitStandsWhereRvizHasIt) {
+  const render::Camera camera = CameraOf(
+      "      {Class: rviz/Orbit, Distance: 5, Yaw: 0, Pitch: 0.5, Field of View: 0.9,\n"
+      "       Focal Point: {X: 1, Y: 2, Z: 0.5}}\n");
+  EXPECT_LT((camera.position - Vector3d(1 + 5 * std::cos(0.5), 2, 0.5 + 5 * std::sin(0.5))).norm(),
+            1e-9);
+  EXPECT_LT((camera.target - Vector3d(1, 2, 0.5)).norm(), 1e-9);
+  EXPECT_NEAR(camera.vertical_fov_rad, 0.9, 1e-9);
+}
+
+TEST(RvizFile, OrbitUpsideDownHasItsCameraBelow) {
+  const render::Camera camera =
+      CameraOf("      {Class: rviz/Orbit, Distance: 5, Yaw: 0, Pitch: 0.5, Invert Z Axis: true}\n");
+  EXPECT_LT(camera.position.z(), -2);
+  EXPECT_GT(Seen({0, 0, 1}, camera).y_px, kPictureHeight / 2.0) << "what is high is below";
+}
+
+// Measured in RViz: the point is 24 % of the height below the middle.
+TEST(RvizFile, XyOrbitShowsItsFocusBelowTheMiddle) {
+  for (const char* kind : {"rviz/XYOrbit", "rviz/ThirdPersonFollower"}) {
+    const render::Camera camera =
+        CameraOf("      {Class: " + std::string(kind) + ", Distance: 5, Yaw: 0.3, Pitch: 0.6}\n");
+    const render::Projected focus = Seen(Vector3d::Zero(), camera);
+    EXPECT_NEAR(focus.x_px, kPictureWidth / 2.0, 1e-6);
+    EXPECT_NEAR(focus.y_px / kPictureHeight, 0.5 + 0.2 / std::tan(M_PI / 8) / 2, 1e-6);
+  }
+}
+
+TEST(RvizFile, FirstPersonLooksDownWithPitchAndLeansWithRoll) {
+  const render::Camera camera = CameraOf(
+      "      {Class: rviz/FPS, Yaw: 1.5707963267948966, Pitch: 0.5, Roll: 0,\n"
+      "       Position: {X: 0, Y: 0, Z: 2}}\n");
+  const Vector3d ahead = (camera.target - camera.position).normalized();
+  EXPECT_LT((ahead - Vector3d(0, std::cos(0.5), -std::sin(0.5))).norm(), 1e-6);
+  const render::Camera leaning = CameraOf("      {Class: rviz/FPS, Roll: 0.5}\n");
+  EXPECT_LT((leaning.up - Vector3d(0, -std::sin(0.5), std::cos(0.5))).norm(), 1e-6);
+}
+
+TEST(RvizFile, TopDownHasPixelsPerMetre) {
+  const render::Camera camera =
+      CameraOf("      {Class: rviz/TopDownOrtho, Scale: 100, Angle: 0, X: 1, Y: 2}\n");
+  const render::Projected middle = Seen({1, 2, 0}, camera), right = Seen({2, 2, 0}, camera),
+                          up = Seen({1, 3, 1.8}, camera);
+  EXPECT_NEAR(middle.x_px, kPictureWidth / 2.0, 1e-3);
+  EXPECT_NEAR(middle.y_px, kPictureHeight / 2.0, 1e-3);
+  EXPECT_NEAR(right.x_px - middle.x_px, 100, 1e-3);
+  EXPECT_NEAR(middle.y_px - up.y_px, 100, 1e-3);
+}
+
+TEST(RvizFile, TopDownTurnsWithItsAngle) {
+  const render::Camera camera =
+      CameraOf("      {Class: rviz/TopDownOrtho, Scale: 50, Angle: 0.5}\n");
+  EXPECT_LT(Seen({0, 0, 0}, camera).y_px, Seen({1, 0, 0}, camera).y_px)
+      << "the scene turns the other way: +x points down to the right";
+}
+
+TEST(RvizFile, ReadsValuesAsRvizDoes) {
+  const auto camera = CameraOf(
+      "      {Class: rviz/Orbit, Distance: five, Yaw: 0, Pitch: 9, Focal Point: {X: 1, Y: 2}}\n");
+  EXPECT_NEAR(camera.position.norm(), 0.001, 1e-9)
+      << "0, which is too near, from a point without Z";
+  const auto settings = SettingsOf(ReadText(
+      WithDisplays("    - {Class: rviz/Grid, Enabled: no, Name: any text but false is true}\n",
+                   "  Global Options: {Background Color: 300; -5; 7}\n")));
+  EXPECT_EQ(settings.at("floor"), "on");
+  EXPECT_EQ(settings.at("background"), "#ff0007");
+}
+
+TEST(RvizFile, NamesAViewThatIsNotOfRvizAndAFrameThatIsNotFollowed) {
+  const RvizPicture picture =
+      ReadText(WithView("      {Class: plugin/Animated, Target Frame: base_link}\n"));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("4: the view 'plugin/Animated' is not one of")));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Target Frame 'base_link' is not followed")));
+}
+
+TEST(RvizFile, IsRefusedWithPlaceAndReason) {
+  EXPECT_EQ(RefusalOfText("[1, 2"),
+            "saved.rviz:1: not valid YAML (end of sequence flow not found)");
+  EXPECT_EQ(RefusalOfText("Panels: []\n"),
+            "saved.rviz: is no configuration of RViz: it has no 'Visualization Manager'");
+  EXPECT_EQ(
+      RefusalOfText(WithDisplays("    - {Class: rviz_default_plugins/Grid}\n")),
+      "saved.rviz:3: is a configuration of RViz 2 ('rviz_default_plugins/Grid'); save one with "
+      "RViz 1");
+  EXPECT_THAT(RefusalOfText(std::string(200, '[')), HasSubstr("too many levels; at most 100"));
+}
+
+TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {
+  KINESCOPE_NEEDS_SHARED_DATA("rviz");
+  const fs::path folder = SharedData("rviz");
+  int read = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "resaved-1.14.19")) {
+    const fs::path original = folder / entry.path().filename();
+    if (!fs::exists(original)) continue;
+    auto ours = SettingsOf(ReadRvizFile(original, kPictureHeight));
+    auto resaved = SettingsOf(ReadRvizFile(entry.path(), kPictureHeight));
+    for (const char* option : {"background", "theme", "floor", "projection"}) {
+      EXPECT_EQ(ours[option], resaved[option]) << original << " " << option;
+    }
+    EXPECT_NEAR(std::stod(ours["fov"]), std::stod(resaved["fov"]), 1e-5) << original;
+    const auto camera = ParseCamera(ours["camera"]).place,
+               again = ParseCamera(resaved["camera"]).place;
+    ASSERT_TRUE(camera && again) << original;  // RViz writes single precision
+    EXPECT_LT((camera->position - again->position).norm(), 1e-5) << original;
+    EXPECT_LT((camera->target - again->target).norm(), 1e-5) << original;
+    EXPECT_LT((camera->up - again->up).norm(), 1e-5) << original;
+    ++read;
+  }
+  EXPECT_GE(read, 15);
+}
+
+}  // namespace
+}  // namespace kinescope::app
