@@ -20,7 +20,7 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/golden.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/many_machines.md", "docs/motion.md", "docs/page.md", "docs/pictures.md", "docs/pose.md", "docs/urdf.md",
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/golden.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/many_machines.md", "docs/motion.md", "docs/page.md", "docs/pictures.md", "docs/pose.md", "docs/rviz_files.md", "docs/urdf.md",
              "tests/bench/README.md", "tests/soak/README.md"]
 # Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
@@ -316,7 +316,8 @@ for document in DOCUMENTS:
     for line, words in commands(document):
         tried += 1
         with tempfile.TemporaryDirectory() as folder:
-            shutil.copytree(TOP / "golden_images", pathlib.Path(folder) / "golden_images")
+            for name in ("golden_images", "launch"):
+                shutil.copytree(TOP / name, pathlib.Path(folder) / name)
             try:
                 problem = attempt(line, words, folder)
             except subprocess.TimeoutExpired:
