@@ -269,5 +269,21 @@ TEST_F(GoldenDashboard, TellsAChangedRecordingFromAChangedPage) {
   EXPECT_THAT(result.out, HasSubstr("input source"));
 }
 
+TEST_F(GoldenDashboard, HasTheSameBytesInChromiumAsInItsHeadlessShell) {
+  const std::string whole = "/usr/bin/chromium", shell = "/usr/bin/chromium-headless-shell";
+  for (const std::string& program : {whole, shell}) {
+    if (!fs::exists(program)) GTEST_SKIP() << program << " is missing";
+  }
+  const auto golden = [&](const std::string& chromium, std::vector<std::string> words) {
+    words.insert(words.begin(), "golden");
+    return Kinescope(words, {"CI=", "KINESCOPE_CHROMIUM=" + chromium});
+  };
+  Record("1");
+  WriteCase("dashboard", "page: dashboard\nsource: lift.mvnx\ntime: 0.5\nsize: 800x600\n");
+  ASSERT_EQ(golden(whole, {"update", case_}).exit_code, 0);
+  const ProgramResult checked = golden(shell, {"check", case_, "--strict", "--out", case_ / "out"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+}
+
 }  // namespace
 }  // namespace kinescope
