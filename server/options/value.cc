@@ -40,6 +40,11 @@ const FormerWord* FindFormer(const std::vector<FormerWord>& words, const std::st
   return found == words.end() ? nullptr : &*found;
 }
 
+std::vector<std::filesystem::path> FilePath::Files() const {
+  if (value_.empty()) return {};
+  return {value_};
+}
+
 void Texts::Parse(const std::string& text) {
   value_.clear();
   for (std::size_t begin = 0; begin < text.size();) {

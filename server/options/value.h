@@ -118,6 +118,18 @@ class Text : public ValueOf<std::string> {
   bool (*is_good_)(const std::string&) = nullptr;
 };
 
+/// A file that decides what is made; "": none.
+class FilePath : public ValueOf<std::string> {
+ public:
+  FilePath() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override { value_ = text; }
+  std::string ToText() const override { return value_; }
+  std::string Expected() const override { return ""; }
+  bool IsGiven() const override { return !value_.empty(); }
+  std::vector<std::filesystem::path> Files() const override;
+};
+
 /// Texts, one each time the option is given; in one text (YAML, ROS) with semicolons between them.
 class Texts : public ValueOf<std::vector<std::string>> {
  public:

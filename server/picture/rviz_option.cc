@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <string>
+
 #include "server/picture/rviz_file.h"
 
 namespace kinescope::app {
@@ -17,14 +19,9 @@ bool IsPartOfView(const std::string& option) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> RvizValue::Files() const {
-  if (value_.empty()) return {};
-  return {value_};
-}
-
-void ApplyRviz(const RvizValue& value, int height_px, options::OptionList& list) {
-  if (!value.IsGiven()) return;
-  const RvizPicture picture = ReadRvizFile(*value, height_px);
+void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList& list) {
+  if (!file.IsGiven()) return;
+  const RvizPicture picture = ReadRvizFile(*file, height_px);
   const options::Option* const camera = list.Find("camera");
   const bool has_camera = camera != nullptr && camera->channel != Channel::kDefault;
   std::string missing;
@@ -34,12 +31,12 @@ void ApplyRviz(const RvizValue& value, int height_px, options::OptionList& list)
       missing += (missing.empty() ? "" : ", ") + setting.option;
     } else if (option->channel == Channel::kDefault &&
                !(has_camera && IsPartOfView(setting.option))) {
-      const std::string origin = fmt::format("{}:{}: ", *value, setting.line);
+      const std::string origin = fmt::format("{}:{}: ", *file, setting.line);
       list.Set(*option, setting.option, {setting.text, origin}, Channel::kFile);
     }
   }
   for (const std::string& remark : picture.remarks) spdlog::warn("{}", remark);
-  if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *value, missing);
+  if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *file, missing);
   list.CheckEffects();
 }
 

@@ -1,25 +1,9 @@
 /// The option --rviz: a configuration of RViz 1, from which pictures take what they can.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "server/options/option_list.h"
 
 namespace kinescope::app {
-
-/// Any file; "": none.
-class RvizValue : public options::ValueOf<std::string> {
- public:
-  RvizValue() : ValueOf({}) {}
-
-  void Parse(const std::string& text) override { value_ = text; }
-  std::string ToText() const override { return value_; }
-  std::string Expected() const override { return ""; }
-  bool IsGiven() const override { return !value_.empty(); }
-  std::vector<std::filesystem::path> Files() const override;
-};
 
 /// For --help.
 inline constexpr const char* kRvizHelp =
@@ -29,6 +13,6 @@ inline constexpr const char* kRvizHelp =
 /// Sets those of `list` that were not given, and logs a warning for each thing that RViz would draw
 /// and we do not. @param height_px  of the picture. @throws UsageError as ReadRvizFile(), or for an
 /// option that has no effect with the others now
-void ApplyRviz(const RvizValue& value, int height_px, options::OptionList& list);
+void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList& list);
 
 }  // namespace kinescope::app

@@ -15,8 +15,8 @@ export const DESKTOP = { width: 1440, height: 900 };
 export const PHONE = { width: 390, height: 844 };
 
 // The headless shell opens a page in three quarters of the time of the whole program.
-const CHROMIUM = process.env.KINESCOPE_CHROMIUM
-  ?? ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'].find((path) => existsSync(path)) ?? '/usr/bin/chromium-headless-shell';
+const SHELL = '/usr/bin/chromium-headless-shell';
+const CHROMIUM = process.env.KINESCOPE_CHROMIUM ?? (existsSync(SHELL) ? SHELL : '/usr/bin/chromium');
 // Draws WebGL in software and keeps quiet on the network.
 const FLAGS = [
   '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',

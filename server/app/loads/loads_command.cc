@@ -23,7 +23,7 @@
 #include "server/app/loads/load_trial.h"
 #include "server/app/loads/sensitivity.h"
 #include "server/app/loads/trial_marks.h"
-#include "server/app/marks_value.h"
+#include "server/app/marks_option.h"
 #include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/options/option_json.h"
@@ -46,7 +46,7 @@ struct LoadsOptions {
   options::Choice<bool> columns{{{"usual", false}, {"all", true}}, false};
   options::Choice<bool> samples{{{"all", true}, {"none", false}}, true};
   options::Optional<options::Number> seconds{options::Number(0, {0, kLatestSecs, "s", true})};
-  MarksValue marks;
+  options::FilePath marks;
   PersonOptions person;
   LoadOptions loads;
   BackendOptions backend;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/video.h"
-#include "server/app/marks_value.h"
+#include "server/app/marks_option.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
 #include "server/picture/rviz_option.h"
@@ -73,8 +73,7 @@ struct RenderOptions {
   BackendOptions backend;
   PersonOptions person;
   LoadOptions loads;
-  MarksValue marks;
-  RvizValue rviz;
+  options::FilePath marks, rviz;
   options::Whole jobs;  // 0: as many as are fastest here
   options::Flag force, no_sidecar, json;
   options::Text verify;  // a file; "": draws

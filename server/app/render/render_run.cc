@@ -14,7 +14,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
-#include "server/app/marks_value.h"
+#include "server/app/marks_option.h"
 #include "server/app/progress.h"
 #include "server/app/render/moments.h"
 #include "server/app/render/render_tasks.h"

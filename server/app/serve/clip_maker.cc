@@ -12,7 +12,7 @@
 
 #include "core/system/clocks.h"
 #include "render/video.h"
-#include "server/app/marks_value.h"
+#include "server/app/marks_option.h"
 #include "server/picture/render_planner.h"
 
 namespace kinescope::app {

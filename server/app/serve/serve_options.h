@@ -64,7 +64,7 @@ struct ServeOptions {
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;
-  RvizValue rviz;
+  options::FilePath rviz;
   options::Size picture_size;
   options::Number picture_rate_hz;
   BackendOptions backend;

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "core/system/clocks.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
 #include "tests/server/mvn/mvn_testing.h"
 
 namespace kinescope::mvn::testing {
 
-inline constexpr std::int64_t kMilli = 1'000'000;
-inline constexpr std::int64_t kPeriod = 1'000'000'000 / 240;
+inline constexpr std::int64_t kPeriod = kNanosPerSecond / 240;
 
 inline Endpoint Sender(std::uint8_t host, std::uint16_t port = 1) {
   Endpoint endpoint;
@@ -62,7 +62,7 @@ class AssemblerTest : public ::testing::Test {
 
   // Every datagram ended in exactly one place, once the last sample is closed.
   void ExpectAllAccountedFor() {
-    Wait(4000 * kMilli);
+    Wait(4000 * kNanosPerMilli);
     assembler_.Expire(now_, sink_);
     EXPECT_EQ(assembler_.tally().settled(), assembler_.tally().datagrams);
     EXPECT_EQ(assembler_.deadline_nanos(), std::nullopt);

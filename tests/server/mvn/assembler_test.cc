@@ -13,7 +13,6 @@ namespace {
 
 using testing::AssemblerTest;
 using ::testing::ElementsAre;
-using testing::kMilli;
 using testing::kPeriod;
 using testing::PoseItems;
 using testing::RandomSample;
@@ -237,7 +236,7 @@ TEST_F(AssemblerTest, WaitsForTheRestOfASampleAsTheDeliverySays) {
       for (const std::string& datagram : datagrams) {
         const bool is_lost = counter == 15 && &datagram == &datagrams[2];
         if (!is_lost) assembler.Add(sender_, datagram, now(), sink);
-        if (counter == 10 && &datagram == &datagrams[1]) Wait(300 * kMilli);
+        if (counter == 10 && &datagram == &datagrams[1]) Wait(300 * kNanosPerMilli);
         assembler.Expire(now_, sink);
       }
       Wait(kPeriod);
@@ -270,14 +269,14 @@ TEST_F(AssemblerTest, CountsHowManySamplesAreLost) {
 
 TEST_F(AssemblerTest, MeasuresByHowMuchSamplesComeLate) {
   for (std::uint32_t counter = 4; counter <= 2000; counter += 4) {
-    const std::int64_t late = counter % 20 == 0 ? 8 * kMilli : 0;
+    const std::int64_t late = counter % 20 == 0 ? 8 * kNanosPerMilli : 0;
     Wait(late);
     Send(Datagrams(counter));
     Wait(4 * kPeriod - late);
   }
   const DurationHistogram delays = counters().delays;
   EXPECT_GE(delays.total(), 499U);
-  EXPECT_LT(delays.PercentileNanos(0.7), 1 * kMilli);
+  EXPECT_LT(delays.PercentileNanos(0.7), 1 * kNanosPerMilli);
   EXPECT_NEAR(static_cast<double>(delays.PercentileNanos(0.95)), 8e6, 1e6);
 }
 
@@ -286,7 +285,7 @@ TEST_F(AssemblerTest, CountsNoAlternatingCounterStepAsGap) {
   for (int i = 0; i < 100; ++i) {
     counter = static_cast<std::uint32_t>(i * 240 / 100);
     Send(Datagrams(counter)[0]);
-    Wait(10 * kMilli);
+    Wait(10 * kNanosPerMilli);
   }
   EXPECT_EQ(counters().counter_gaps, 0U);
   Send(Datagrams(counter + 5)[0]);
@@ -317,7 +316,7 @@ TEST_F(AssemblerTest, DistinguishesAnEarlyRestartFromLateDatagrams) {
 
 TEST_F(AssemblerTest, DetectsARestartByALowerCounterAfterAGap) {
   LearnFrom(1, 20);
-  Wait(300 * kMilli);
+  Wait(300 * kNanosPerMilli);
   Send(Datagrams(10));
   EXPECT_THAT(GivenCounters(), ElementsAre(10U));
   EXPECT_EQ(counters().restarts, 1U);
@@ -428,7 +427,7 @@ TEST_F(AssemblerTest, TreatsTrackedObjectsAsASeparateCharacter) {
   ASSERT_EQ(sink_.objects.size(), 7U);
   EXPECT_EQ(sink_.objects[0].character, 1);
   EXPECT_EQ(sink_.objects[0].present.count(), 3U);
-  EXPECT_NEAR(sink_.objects[6].stamp_nanos, sink_.samples[6].stamp_nanos, kMilli);
+  EXPECT_NEAR(sink_.objects[6].stamp_nanos, sink_.samples[6].stamp_nanos, kNanosPerMilli);
 }
 
 TEST_F(AssemblerTest, DeliversGlovesPropsTrackersAndTimeOfDay) {
@@ -459,7 +458,7 @@ TEST_F(AssemblerTest, DeliversGlovesPropsTrackersAndTimeOfDay) {
 TEST_F(AssemblerTest, UsesReceiveTimesAsTimeStampsOnRequest) {
   Assembler assembler({Stamps::kArrival, Delivery::kPrompt});
   for (std::uint32_t counter = 1; counter < 40; ++counter) {
-    const std::int64_t jitter = random_.Integer(0, 3) * kMilli;
+    const std::int64_t jitter = random_.Integer(0, 3) * kNanosPerMilli;
     now_ += jitter;
     for (const std::string& datagram : Datagrams(counter)) {
       assembler.Add(sender_, datagram, now(), sink_);
@@ -479,7 +478,9 @@ TEST_F(AssemblerTest, AccountsForEveryDatagramOfABadNetwork) {
     for (std::string& datagram : Datagrams(counter)) {
       if (random_.Coin(0.05)) continue;
       const std::int64_t sent = i * kPeriod;
-      const auto delay = [&] { return random_.Coin(0.1) ? random_.Integer(0, 9) * kMilli : 0; };
+      const auto delay = [&] {
+        return random_.Coin(0.1) ? random_.Integer(0, 9) * kNanosPerMilli : 0;
+      };
       if (random_.Coin(0.05)) in_flight.emplace_back(sent + delay(), datagram);
       in_flight.emplace_back(sent + delay(), std::move(datagram));
     }

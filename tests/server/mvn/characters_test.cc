@@ -9,7 +9,6 @@
 namespace kinescope::mvn {
 namespace {
 
-using testing::kMilli;
 using testing::kPeriod;
 using testing::Sender;
 
@@ -65,7 +64,7 @@ TEST_F(CharactersTest, UsesIncompleteScaleDataAfterATimeout) {
   Send(datagrams[1]);
   Send(Datagrams(1)[0]);  // nobody appears from a single datagram
   EXPECT_TRUE(sink_.characters.empty());
-  Wait(100 * kMilli);
+  Wait(100 * kNanosPerMilli);
   assembler_.Expire(now_, sink_);
   sink_.characters.clear();
   const auto deadline = assembler_.deadline_nanos();
@@ -128,7 +127,7 @@ TEST_F(CharactersTest, KeepsThePersonOfASenderThatReturnsFromAnotherPort) {
   character.name = "Ines";
   Send(EncodeCharacter(character));
   LearnFrom(5000);
-  Wait(1000 * kMilli);
+  Wait(1000 * kNanosPerMilli);
   sender_ = Sender(1, 2);
   Send(Datagrams(3));
   ASSERT_FALSE(sink_.samples.empty());
@@ -174,7 +173,7 @@ TEST_F(CharactersTest, KeepsALimitedNumberOfStreams) {
     for (std::uint32_t counter = 1; counter <= 3; ++counter) Send(Datagrams(counter));
   }
   EXPECT_EQ(rejected(), (100 - Assembler::kMaxStreams) * kEach);
-  Wait(4000 * kMilli);
+  Wait(4000 * kNanosPerMilli);
   sender_ = Sender(200);
   Send(Datagrams(1)[0]);
   EXPECT_EQ(rejected(), (100 - Assembler::kMaxStreams) * kEach) << "a silent one makes room";
@@ -201,7 +200,7 @@ class LockOutTest : public testing::AssemblerTest {
       attack();
       sender_ = suit;
       Send(Datagrams(counter, 77).front());
-      Wait(1000 * kMilli / 60);
+      Wait(1000 * kNanosPerMilli / 60);
     }
     const auto is_mine = [](const BodySample& sample) { return sample.character == 77; };
     return static_cast<std::size_t>(
@@ -228,7 +227,7 @@ TEST_F(LockOutTest, ASuitTakesThePlaceOfSendersThatOnceHadABody) {
   }
   for (int i = 0; i < 40; ++i) {
     SendFromFalseSenders();
-    Wait(100 * kMilli);
+    Wait(100 * kNanosPerMilli);
   }
   sink_.samples.clear();
   EXPECT_GE(SamplesOfASuitBeside([this] { SendFromFalseSenders(); }), 55U);
@@ -257,7 +256,7 @@ TEST_F(LockOutTest, ASuitTakesPlaceBesideOneSenderOfManyCharacters) {
   for (int i = 0; i < 10; ++i) attack();
   EXPECT_GE(SamplesOfASuitBeside(attack), 55U);
   sink_.samples.clear();
-  Wait(4000 * kMilli);
+  Wait(4000 * kNanosPerMilli);
   for (int i = 0; i < 10; ++i) attack();
   EXPECT_GE(SamplesOfASuitBeside(attack, Sender(9, 6)), 55U) << "of the same machine";
 }

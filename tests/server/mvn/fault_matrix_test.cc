@@ -19,7 +19,6 @@
 namespace kinescope::mvn {
 namespace {
 
-using testing::kMilli;
 using testing::RandomValues;
 
 constexpr double kRateHz = 120;
@@ -107,7 +106,7 @@ class FaultyStream : private SampleSink {
     }
     faults_.End();
     DeliverBefore(std::numeric_limits<std::int64_t>::max());
-    for (int second = 1; second <= 10; ++second) Expire(now_ + 1000 * kMilli);
+    for (int second = 1; second <= 10; ++second) Expire(now_ + 1000 * kNanosPerMilli);
   }
 
   // What arrived, against what was sent.

@@ -9,11 +9,23 @@
 #include <vector>
 
 #include "core/source.h"
+#include "core/system/errors.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/datagram.h"
 #include "tests/recording_sink.h"
 
 namespace kinescope::mvn::testing {
+
+/// What `action` is refused with as a source; "": it is not.
+template <class Action>
+std::string ErrorOf(const Action& action) {
+  try {
+    action();
+  } catch (const SourceError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 using ::kinescope::testing::RecordingSink;
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <set>
 
+#include "core/system/clocks.h"
+
 namespace kinescope::app {
 namespace {
-
-constexpr std::int64_t kFeedMilli = 1'000'000;
 
 TEST(CharacterIds, AreUnchangedWithoutCopies) {
   CharacterIds ids(1);
@@ -53,8 +53,8 @@ std::vector<std::uint32_t> KeptOf(Decimator& decimator, double stream_hz, double
 
 TEST(Decimator, KeepsAllSamplesUnlessALowerRateIsRequested) {
   Decimator decimator;
-  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U);
-  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U) << "even the same ones";
+  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kNanosPerMilli).size(), 100U);
+  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kNanosPerMilli).size(), 100U) << "even the same ones";
 }
 
 TEST(Decimator, KeepsOneSamplePerPeriodAtEvenIntervals) {
@@ -63,7 +63,7 @@ TEST(Decimator, KeepsOneSamplePerPeriodAtEvenIntervals) {
         std::pair(100.0, 240.0), std::pair(59.0, 60.0)}) {
     Decimator decimator;
     const std::uint32_t count = static_cast<std::uint32_t>(10 * rate_hz);
-    const auto kept = KeptOf(decimator, stream_hz, rate_hz, count, kFeedMilli);
+    const auto kept = KeptOf(decimator, stream_hz, rate_hz, count, kNanosPerMilli);
     EXPECT_NEAR(static_cast<double>(kept.size()), 10 * stream_hz, 1) << stream_hz;
     EXPECT_EQ(kept.front(), 0U);
     const double apart = rate_hz / stream_hz;
@@ -76,28 +76,28 @@ TEST(Decimator, KeepsOneSamplePerPeriodAtEvenIntervals) {
 
 TEST(Decimator, KeepsAllSamplesIfTheRequestedRateIsHigher) {
   Decimator decimator;
-  EXPECT_EQ(KeptOf(decimator, 480, 60, 100, kFeedMilli).size(), 100U);
+  EXPECT_EQ(KeptOf(decimator, 480, 60, 100, kNanosPerMilli).size(), 100U);
 }
 
 TEST(Decimator, DecidesEquallyForAllDatagramsOfASampleInAnyOrder) {
   Decimator decimator;
   std::vector<bool> first;
   for (std::uint32_t i = 0; i < 8; ++i)
-    first.push_back(decimator.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli));
+    first.push_back(decimator.Keeps(60, i, i * 4 * kNanosPerMilli, kNanosPerMilli));
   EXPECT_TRUE(std::find(first.begin(), first.end(), false) != first.end());
   EXPECT_TRUE(std::find(first.begin(), first.end(), true) != first.end());
   for (const std::uint32_t i : {7U, 2U, 5U, 0U, 1U, 6U, 3U, 4U}) {
-    EXPECT_EQ(decimator.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli), first[i]) << i;
+    EXPECT_EQ(decimator.Keeps(60, i, i * 4 * kNanosPerMilli, kNanosPerMilli), first[i]) << i;
   }
 }
 
 // Frames at 240 Hz whose time code is in whole 10 ms: several have the same time.
 TEST(Decimator, KeepsItsDecisionWhileTheClockStandsStill) {
   Decimator decimator;
-  EXPECT_TRUE(decimator.Keeps(60, 0, 0, kFeedMilli));
-  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(decimator.Keeps(60, i, 0, kFeedMilli));
-  EXPECT_FALSE(decimator.Keeps(60, 20, 4 * kFeedMilli, kFeedMilli));
-  EXPECT_FALSE(decimator.Keeps(60, 21, 4 * kFeedMilli, kFeedMilli));
+  EXPECT_TRUE(decimator.Keeps(60, 0, 0, kNanosPerMilli));
+  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(decimator.Keeps(60, i, 0, kNanosPerMilli));
+  EXPECT_FALSE(decimator.Keeps(60, 20, 4 * kNanosPerMilli, kNanosPerMilli));
+  EXPECT_FALSE(decimator.Keeps(60, 21, 4 * kNanosPerMilli, kNanosPerMilli));
 }
 
 }  // namespace

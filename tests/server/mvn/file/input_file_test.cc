@@ -73,15 +73,6 @@ std::string ReadAll(InputFile& file) {
   return content;
 }
 
-std::string ErrorOfFile(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const SourceError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Longer than any buffer on the way, and with nothing in it that repeats.
 std::string Content() {
   RandomValues random(31);
@@ -138,7 +129,7 @@ TEST_P(PackedInput, ReportsWhyItIsTruncated) {
   const std::string packed = Packed(Content(), GetParam().add_filter);
   for (const std::size_t size : {packed.size() / 2, packed.size() - 200}) {
     const std::string path = Write(folder / "take", packed.substr(0, size));
-    std::string said = ErrorOfFile([&] {  // at once, where the first block is cut already
+    std::string said = ErrorOf([&] {  // at once, where the first block is cut already
       InputFile file = OpenInputFile(path);
       const std::string content = ReadAll(file);
       EXPECT_NE(std::ferror(file.get()), 0) << "ends as if that were all: " << content.size();
@@ -168,7 +159,7 @@ TEST_P(PackedInput, ReportsDamageThatChangesItsContent) {
           static_cast<char>(random.Integer(0, 255));
     }
     std::string read;
-    const std::string error = ErrorOfFile([&] {
+    const std::string error = ErrorOf([&] {
       InputFile file = OpenInputFile(Write(folder / "take", damaged));
       read = ReadAll(file);
       EXPECT_EQ(std::ferror(file.get()) != 0, !file.failure().empty());
@@ -213,7 +204,7 @@ TEST(InputFile, NeedsLittleMemoryForADecompressionBomb) {
 TEST(InputFile, ReportsTheErrorOfAPath) {
   TempFolder folder;
   const auto error_of = [](const std::string& path) {
-    return ErrorOfFile([&] { OpenInputFile(path); });
+    return ErrorOf([&] { OpenInputFile(path); });
   };
   EXPECT_THAT(error_of("/nowhere/take.pcap"),
               AllOf(HasSubstr("/nowhere/take.pcap"), HasSubstr("No such file"),
@@ -252,11 +243,11 @@ TEST(OpenDatagrams, AcceptsOnlyRecordingsOfDatagrams) {
   EXPECT_EQ(open("#ROSBAG V2.0\n"), nullptr);
   EXPECT_NE(open(PcapBuilder(kLinkRaw).bytes()), nullptr);
   EXPECT_NE(open(RawDatagram().Bytes()), nullptr);
-  EXPECT_THAT(ErrorOfFile([&] { open("PK\x03\x04 and so on"); }), HasSubstr("zip"));
-  EXPECT_THAT(ErrorOfFile([&] { open("Dear diary, today I lifted a box"); }),
+  EXPECT_THAT(ErrorOf([&] { open("PK\x03\x04 and so on"); }), HasSubstr("zip"));
+  EXPECT_THAT(ErrorOf([&] { open("Dear diary, today I lifted a box"); }),
               AllOf(HasSubstr("take.xyz"), HasSubstr("unknown file format"), HasSubstr("pcap")));
-  EXPECT_THAT(ErrorOfFile([&] { open(""); }), HasSubstr("is empty"));
-  EXPECT_THAT(ErrorOfFile([] { OpenDatagrams("/nowhere/x.pcap"); }), HasSubstr("No such file"));
+  EXPECT_THAT(ErrorOf([&] { open(""); }), HasSubstr("is empty"));
+  EXPECT_THAT(ErrorOf([] { OpenDatagrams("/nowhere/x.pcap"); }), HasSubstr("No such file"));
 }
 
 TEST(OpenDatagrams, ReportsADamagedArchiveInEveryReader) {
@@ -280,12 +271,12 @@ TEST(OpenDatagrams, ReportsADamagedArchiveInEveryReader) {
   for (const auto& [content, phrase] :
        {std::pair(raw, "reading stopped"), std::pair(pcap.bytes(), "is truncated after")}) {
     const std::string path = cut(content);
-    EXPECT_THAT(ErrorOfFile([&] { ReadToEnd(*OpenDatagrams(path)); }),
+    EXPECT_THAT(ErrorOf([&] { ReadToEnd(*OpenDatagrams(path)); }),
                 AllOf(HasSubstr("take.gz"), HasSubstr(phrase), HasSubstr("truncated gzip")));
   }
   const std::string mvnx = cut(WriteMvnx(4, 60, skeleton, SwingingArms(skeleton, 50)));
   EXPECT_THAT(
-      ErrorOfFile([&] {
+      ErrorOf([&] {
         const auto source = OpenMvnx(mvnx);
         testing::RecordingSink sink;
         while (source->Poll({}, sink) == Source::State::kMore) {

@@ -58,15 +58,6 @@ std::vector<KeptDatagram> ReadBack(const std::string& path) {
   return ReadToEnd(*OpenDatagrams(path)).datagrams;
 }
 
-std::string ErrorOfRecording(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const SourceError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(PcapWriter, WritesEveryByteAddressAndTime) {
   TempFolder folder;
   Endpoint nobody;
@@ -237,7 +228,7 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   std::ofstream(path) << "dear";
-  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({path}); }),
+  EXPECT_THAT(ErrorOf([&] { PcapWriter({path}); }),
               AllOf(HasSubstr(path), HasSubstr("exists"), HasSubstr("--force")));
   EXPECT_EQ(std::filesystem::file_size(path), 4U);
   PcapWriter({path, 0, true}).Close();
@@ -246,10 +237,7 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
   // Numbered ones of an earlier recording would seem to be part of this one.
   std::filesystem::remove(path);
   std::ofstream(folder / "take-0002.pcap") << "dear";
-  EXPECT_THAT(ErrorOfRecording([&] {
-                PcapWriter({path, 1000, false});
-              }),
-              HasSubstr("take-0002.pcap"));
+  EXPECT_THAT(ErrorOf([&] { PcapWriter({path, 1000, false}); }), HasSubstr("take-0002.pcap"));
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"take-0002.pcap"});
   PcapWriter({path, 1000, true}).Close();
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"take.pcap"});
@@ -257,14 +245,14 @@ TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
 
 TEST(PcapWriter, ReportsWhyAFileCannotBeCreated) {
   TempFolder folder;
-  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({folder / "none/take.pcap"}); }),
+  EXPECT_THAT(ErrorOf([&] { PcapWriter({folder / "none/take.pcap"}); }),
               AllOf(HasSubstr("none/take.pcap"), HasSubstr("create its folder first")));
-  EXPECT_THAT(ErrorOfRecording([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
+  EXPECT_THAT(ErrorOf([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
 }
 
 TEST(PcapWriter, ReportsAFullDevice) {
   EXPECT_THAT(
-      ErrorOfRecording([] { PcapWriter({"/dev/full"}); }),
+      ErrorOf([] { PcapWriter({"/dev/full"}); }),
       AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("nothing was recorded")));
 }
 
@@ -278,7 +266,7 @@ TEST(PcapWriter, KeepsCompletePacketsWhenTheDiskIsFull) {
     std::string error;
     {
       const SmallFilesOnly full(limit);
-      error = ErrorOfRecording([&] {
+      error = ErrorOf([&] {
         for (; added < 1000; ++added) Write(writer, Datagram(added));
       });
     }
@@ -311,7 +299,7 @@ TEST(PcapWriter, LeavesNoEmptyFileWhenTheDiskIsFullAtARotation) {
   std::string error;
   {
     const SmallFilesOnly full(0);  // not even the header of the next one
-    error = ErrorOfRecording([&] {
+    error = ErrorOf([&] {
       for (int i = 0; i < 10; ++i) Write(writer, Datagram(added++));
     });
   }
@@ -425,12 +413,12 @@ TEST(PcapRecorder, ReportsAFullDiskToItsOwner) {
   const std::string path = folder / "take.pcap";
   for (const auto when_full : {PcapRecorder::WhenFull::kDrop, PcapRecorder::WhenFull::kWait}) {
     PcapRecorder recorder({path, 0, true}, when_full, 50'000);
-    const std::string error = ErrorOfRecording([&] {
+    const std::string error = ErrorOf([&] {
       for (std::uint32_t i = 0;; ++i) recorder.OnDatagram(View(Datagram(i)));
     });
     EXPECT_THAT(error, HasSubstr("recording stopped"));
-    EXPECT_THAT(ErrorOfRecording([&] { recorder.Check(); }), HasSubstr("recording stopped"));
-    EXPECT_THAT(ErrorOfRecording([&] { recorder.Finish(); }), HasSubstr("recording stopped"));
+    EXPECT_THAT(ErrorOf([&] { recorder.Check(); }), HasSubstr("recording stopped"));
+    EXPECT_THAT(ErrorOf([&] { recorder.Finish(); }), HasSubstr("recording stopped"));
     EXPECT_EQ(ReadBack(path).size(), recorder.counters().datagrams);
   }
 }

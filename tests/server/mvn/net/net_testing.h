@@ -52,16 +52,6 @@ bool PollUntil(Source& source, Sink& sink, const Condition& is_done) {
   return true;
 }
 
-template <class Action>
-std::string ErrorOf(const Action& action) {
-  try {
-    action();
-  } catch (const SourceError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 inline constexpr const char* kListenOnLoopback = "tcp://127.0.0.1:0?listen";
 
 inline bool HasIpv6() {

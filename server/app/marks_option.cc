@@ -1,16 +1,11 @@
-#include "server/app/marks_value.h"
+#include "server/app/marks_option.h"
 
 #include "core/system/errors.h"
 #include "server/marks/mark_file.h"
 
 namespace kinescope::app {
 
-std::vector<std::filesystem::path> MarksValue::Files() const {
-  if (value_.empty()) return {};
-  return {value_};
-}
-
-marks::MarkTrack ReadTrack(const MarksValue& value) {
+marks::MarkTrack ReadTrack(const options::FilePath& value) {
   if (!value.IsGiven()) return {};
   const auto marks = marks::ReadMarks(*value);
   if (!marks) throw UsageError("--marks=" + marks.error());
