@@ -8,9 +8,7 @@ import { toColor } from './colors.js';
 import { ARROW_SHAPES, ForceArrows, makeArrowMaterials, OCCLUDED_OPACITY } from './force_arrows.js';
 import { makeLitMaterial } from './lit_material.js';
 import { makeFlatMaterials, MARK_SHAPES, PointMarks } from './point_marks.js';
-import { request } from './server_api.js';
-import { SkinnedBody } from './skin.js';
-import { readSkin } from './skin_buffer.js';
+import { SkinLevels } from './skin_levels.js';
 import { Spheres } from './spheres.js';
 import { theme } from './theme.js';
 
@@ -46,8 +44,7 @@ export class Human {
   group = new THREE.Group();
   /** @type {string[]} */ failedMeshes = [];
   #loading = 0;  // meshes and skins under way
-  #skin = /** @type {SkinnedBody|null} */ (null);
-  #isDisposed = false;
+  #skin = /** @type {SkinLevels|null} */ (null);
   #look;
   #last = /** @type {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}|null} */ (null);
   #links = /** @type {THREE.Group[]} */ ([]);
@@ -76,7 +73,7 @@ export class Human {
       this.#links.push(group);
       this.group.add(group);
     }
-    if (model.skin !== null) this.#loadSkin(model.skin, onChange);
+    if (model.skin !== null) this.#skin = this.#loadSkin(model.skin, onChange);
     this.#sizes = model.marks;
     this.#marks = new PointMarks(model.marks, markers.flat);
     this.forces = new ForceArrows(markers.force);
@@ -114,7 +111,7 @@ export class Human {
    *  @returns {THREE.Object3D[]} */
   #partsOf(part) {
     switch (part) {
-      case 'body': return [...this.#links, ...this.#skin?.bodies ?? []];
+      case 'body': return [...this.#links, ...this.#skin?.meshes ?? []];
       case 'shadows': return this.#skin?.shadows ?? [];
       case 'com': return [this.#marks.com];
       case 'cop': return [this.#marks.cop];
@@ -136,7 +133,12 @@ export class Human {
   }
 
   get hasSkin() {
-    return this.#skin !== null;
+    return this.#skin?.isLoaded ?? false;
+  }
+
+  /** @param {boolean} isCoarse  whether a skin of fewer triangles will do */
+  setCoarse(isCoarse) {
+    this.#skin?.setCoarse(isCoarse);
   }
 
   /** Before it is drawn.
@@ -146,7 +148,6 @@ export class Human {
   }
 
   dispose() {
-    this.#isDisposed = true;
     this.#skin?.dispose();
     this.#spheres.dispose();
     this.#marks.dispose();
@@ -157,27 +158,26 @@ export class Human {
     for (const { material } of this.#materials.values()) material.dispose();
   }
 
-  /** @param {string} url  an absolute path; the page may be served below another path
+  /** @param {string} url
    *  @param {() => void} onChange */
-  async #loadSkin(url, onChange) {
-    ++this.#loading;
-    try {
-      const answer = await request(url.slice(1));
-      const skin = readSkin(await answer.arrayBuffer(), url);
-      if (this.#isDisposed) return;
-      this.#skin = new SkinnedBody(skin, this.palette, this.ghostOpacity);
-      if (this.#last) {
-        this.#updateSkin(this.#last);
-        this.#updateSpheres(this.#last.person, this.#last.isLive);
-        this.#hide();
-      }
-      this.group.add(this.#skin.group);
-    } catch {
-      this.failedMeshes.push(url);
-    } finally {
-      --this.#loading;
-    }
-    onChange();
+  #loadSkin(url, onChange) {
+    const onFail = (/** @type {string} */ failed) => {
+      this.failedMeshes.push(failed);
+      onChange();
+    };
+    const skin = new SkinLevels(url, this.palette, this.ghostOpacity, {
+      onFail,
+      onLoad: () => {
+        if (this.#last) {
+          this.#updateSkin(this.#last);
+          this.#updateSpheres(this.#last.person, this.#last.isLive);
+          this.#hide();
+        }
+        onChange();
+      },
+    });
+    this.group.add(skin.group);
+    return skin;
   }
 
   /** That replaces those of body and clothes; null: none.
@@ -196,10 +196,9 @@ export class Human {
 
   /** @param {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}} last */
   #updateSkin({ person, isLive, floor }) {
-    this.#skin?.update(person.links, floor, this.#bodyColor(isLive), this.#colorShare);
-    const isOnSkin = this.#look.loads !== 'spheres';
-    this.#skin?.showLoads(isOnSkin ? person.loads.map(({ joint, loadClass }) =>
-      ({ joint, loadClass: isLive ? loadClass : 'unknown' })) : null);
+    const loads = this.#look.loads === 'spheres' ? null
+      : person.loads.map(({ joint, loadClass }) => ({ joint, loadClass: isLive ? loadClass : /** @type {const} */ ('unknown') }));
+    this.#skin?.update({ links: person.links, floor, color: this.#bodyColor(isLive), share: this.#colorShare, loads });
   }
 
   /** Of loads, which people without a skin keep, and of the CoM.
@@ -207,7 +206,7 @@ export class Human {
    *  @param {boolean} isLive */
   #updateSpheres({ loads, com }, isLive) {
     const { hidden } = this.#look, { classes, com: color } = this.palette;
-    const hasLoads = (this.#skin === null || this.#look.loads !== 'skin') && !hidden.includes('loads');
+    const hasLoads = (!this.hasSkin || this.#look.loads !== 'skin') && !hidden.includes('loads');
     const spheres = !hasLoads ? [] : loads.map(({ joint, loadClass, position, radius }) => {
       const known = isLive ? loadClass : 'unknown', look = classes.find(({ name }) => name === known);
       return { center: position, radius, depth: this.#sizes.depths[joint], color: look?.color ?? [0, 0, 0], rim: look?.rim ?? 0 };
@@ -229,7 +228,7 @@ export class Human {
       const solid = held[i];
       mesh.visible = solid !== undefined;
       if (!solid) return;
-      mesh.castShadow = this.#skin === null;  // a skin has a soft shadow, as in the server's pictures
+      mesh.castShadow = !this.hasSkin;  // a skin has a soft shadow, as in the server's pictures
       mesh.material = isLive ? this.markers.held : this.markers.staleHeld;
       mesh.geometry = solid.kind === 'box' ? unitBox : unitCylinder;
       mesh.position.fromArray(solid.position);

@@ -12,6 +12,7 @@ export class People {
   #people = /** @type {Map<number, {human: Human, seenMicros: number|null}>} */ (new Map());
 
   #look = /** @type {import('./human.js').HumanLook} */ ({ loads: 'spheres', style: 'matte', hidden: [] });
+  #isCoarse = false;
 
   /** @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(onChange) {
@@ -26,6 +27,7 @@ export class People {
       if (this.has(model.character, model.revision)) continue;
       this.#people.get(model.character)?.human.dispose();
       const human = new Human(model, palette, markers, this.#look, this.onChange);
+      human.setCoarse(this.#isCoarse);
       this.#people.set(model.character, { human, seenMicros: null });
       this.group.add(human.group);
     }
@@ -35,6 +37,12 @@ export class People {
   setLook(look) {
     this.#look = look;
     for (const { human } of this.#people.values()) human.setLook(look);
+  }
+
+  /** @param {boolean} isCoarse  whether skins of fewer triangles will do */
+  setCoarse(isCoarse) {
+    this.#isCoarse = isCoarse;
+    for (const { human } of this.#people.values()) human.setCoarse(isCoarse);
   }
 
   /** All bodies. */

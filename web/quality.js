@@ -1,7 +1,7 @@
 // How finely the view is drawn: reduced while the machine cannot keep up, and whole again when it can.
 
-const SLOW_FRAME_MILLIS = 45;
-const QUICK_FRAME_MILLIS = 25;
+const SLOW_FRAME_MILLIS = 34;  // a view at 30 pictures a second is not slow
+const QUICK_FRAME_MILLIS = 20;
 const FRAMES_MEASURED = 24;
 const MEASURED_MILLIS = 1500, LEAST_FRAMES = 5;  // a very slow view is not watched for 24 frames
 const HIDDEN_MILLIS = 2000;  // between two frames: the view was hidden, not slow

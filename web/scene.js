@@ -376,6 +376,8 @@ export class Scene {
   #reduce(count) {
     if (count === this.#drawnReductions) return;
     this.#drawnReductions = count;
+    this.#people.setCoarse(count > 0);
+    this.#ghosts.setCoarse(count > 0);
     this.#sun.castShadow = count < 2;
     this.#shade.visible = count < 2;
     this.renderer.setPixelRatio(count >= 3 ? 0.7 : count >= 1 ? 1 : Math.min(devicePixelRatio, 2));

@@ -16,7 +16,7 @@ const vector = listOf(number, 3), growth = listOf(number, 2);
 
 const readHeader = object({
   vertices: number, triangles: number, position_step_m: number, border_step_m: number,
-  paint: oneOf(PAINTS), two_sided: boolean,
+  paint: oneOf(PAINTS), two_sided: boolean, leans: boolean,
   own_plane_until_rad: number, middle_share: number, middles: recordOf(listOf(number, 4)),
   frames: object({
     kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
@@ -52,8 +52,10 @@ const readHeader = object({
  *    which a vertex belongs to one part of the body
  *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
  *  @typedef {{rig: Rig, colors: SuitColors, positions: Float32Array, indices: Uint8Array, weights: Uint8Array,
- *    paint: Int8Array|Uint8Array, borderStep: number, isTwoSided: boolean, triangles: Uint16Array}} Skin
- *    positions: m; indices and weights: four of each vertex, weights sum up to 255; paint: four of each vertex, of a
+ *    paint: Int8Array|Uint8Array, borderStep: number, isTwoSided: boolean, triangles: Uint16Array,
+ *    leans: {shares: Float32Array, neighbours: Uint16Array}|null}} Skin
+ *    positions: m; leans: of a skin of fewer triangles, how its normals become those of the whole one: three shares and
+ *    two vertices of each; indices and weights: four of each vertex, weights sum up to 255; paint: four of each vertex, of a
  *    suit (Int8Array) distances in steps, m, else its colour */
 
 /** Of columns with two ends of each limb; none if they differ in length.
@@ -119,19 +121,23 @@ export function readSkin(buffer, route) {
   if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
     || triangles < 0) reject(`${vertices} vertices and ${triangles} triangles`);
   let at = 4 + headerSize;
-  const wanted = at + 28 * count + 18 * vertices + 6 * triangles;
+  const leaning = header.leans ? vertices : 0;
+  const wanted = at + 28 * count + 16 * leaning + 18 * vertices + 6 * triangles;
   if (buffer.byteLength !== wanted) reject(`${buffer.byteLength} bytes instead of ${wanted}`);
   const take = (/** @type {number} */ bytes) => {
     at += bytes;
     return at - bytes;
   };
   const bindValues = new Float32Array(buffer, take(28 * count), 7 * count);
+  const leans = new Float32Array(buffer, take(12 * leaning), 3 * leaning);
   const influences = new Uint8Array(buffer, take(8 * vertices), 8 * vertices);
   const Paint = header.paint === 'suit' ? Int8Array : Uint8Array;
   const paint = new Paint(buffer, take(4 * vertices), 4 * vertices);
+  const neighbours = new Uint16Array(buffer, take(4 * leaning), 2 * leaning);
   const steps = new Int16Array(buffer, take(6 * vertices), 3 * vertices);
   const corners = new Uint16Array(buffer, take(6 * triangles), 3 * triangles);
   if (corners.some((corner) => corner >= vertices)) reject('a triangle has a corner that is no vertex');
+  if (neighbours.some((neighbour) => neighbour >= vertices)) reject('a normal leans on what is no vertex');
   const indices = new Uint8Array(4 * vertices), weights = new Uint8Array(4 * vertices);
   for (let i = 0; i < vertices; ++i) {
     indices.set(influences.subarray(8 * i, 8 * i + 4), 4 * i);
@@ -161,7 +167,7 @@ export function readSkin(buffer, route) {
       middleShare: header.middle_share, regions: { shapes, partOfFrame, leastWeight: header.regions.least_weight },
     },
     colors: header.colors, indices, weights, paint, borderStep: header.border_step_m,
-    isTwoSided: header.two_sided, triangles: corners,
+    isTwoSided: header.two_sided, triangles: corners, leans: header.leans ? { shares: leans, neighbours } : null,
     positions: Float32Array.from(steps, (step) => header.position_step_m * step),
   };
 }

@@ -45,7 +45,19 @@ const positionsOf = (folds, most, rows) => `
     bits = uvec4(floatBitsToUint(pressed(sum, at, ${rows})), 0u);
   }`;
 
-const NORMALS = `
+// Of a skin of fewer triangles, a normal leans along the edges to two neighbours, as that of the whole one does
+// (render/shape/fine_normals.h).
+const LEANING = `
+  uniform highp usampler2D leans;
+  vec3 leaning(vec3 normal, vec3 own, ivec2 at) {
+    highp uvec4 lean = texelFetch(leans, at, 0);
+    vec3 shares = uintBitsToFloat(lean.xyz);
+    return normalize(shares.x * normal + shares.y * (positionOf(int(lean.w & 0xffffu)) - own)
+      + shares.z * (positionOf(int(lean.w >> 16)) - own));
+  }`;
+
+/** @param {boolean} isLeaning */
+const normalsOf = (isLeaning) => `
   uniform highp sampler2D rest;
   uniform highp usampler2D posedPositions, ring;
   out highp uvec4 bits;
@@ -55,6 +67,7 @@ const NORMALS = `
   vec3 edgeTo(int place, vec3 from) {
     return positionOf(int(texelFetch(ring, ivec2(place % ${RING_WIDTH}, place / ${RING_WIDTH}), 0).x)) - from;
   }
+  ${isLeaning ? LEANING : ''}
   void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     int vertex = at.y * ${WIDTH} + at.x;
@@ -69,7 +82,8 @@ const NORMALS = `
         before = next;
       }
     }
-    bits = uvec4(floatBitsToUint(normalize(sum + vec3(0.0, 0.0, 1e-20))), 0u);
+    vec3 normal = normalize(sum + vec3(0.0, 0.0, 1e-20));
+    bits = uvec4(floatBitsToUint(${isLeaning ? 'leaning(normal, own, at)' : 'normal'}), 0u);
   }`;
 
 /** @param {number} limbs */
@@ -159,14 +173,15 @@ function putRing(vertex, from, to, ring, end) {
   return end;
 }
 
-/** @template {Float32Array|Uint8Array|Uint16Array} T
+/** @template {Float32Array|Uint8Array|Uint16Array|Uint32Array} T
  *  @param {T} values
  *  @param {T} padded  as long as the texture
  *  @param {number} width
  *  @param {{format: THREE.PixelFormat, type: THREE.TextureDataType, internalFormat: THREE.PixelFormatGPU|null}} kind */
 function texture(values, padded, width, { format, type, internalFormat }) {
   padded.set(values);
-  const texels = format === THREE.RGBAFormat ? padded.length / 4 : padded.length;
+  const isOne = format === THREE.RedFormat || format === THREE.RedIntegerFormat;
+  const texels = isOne ? padded.length : padded.length / 4;
   const made = new THREE.DataTexture(padded, width, texels / width, format, type);
   if (internalFormat) made.internalFormat = internalFormat;
   made.needsUpdate = true;
@@ -176,8 +191,21 @@ function texture(values, padded, width, { format, type, internalFormat }) {
 const FLOATS = { format: THREE.RGBAFormat, type: THREE.FloatType, internalFormat: null };
 const BYTES = { format: THREE.RGBAFormat, type: THREE.UnsignedByteType, internalFormat: null };
 const BYTE = { format: THREE.RedFormat, type: THREE.UnsignedByteType, internalFormat: null };
+const WORDS = /** @type {const} */ ({ format: THREE.RGBAIntegerFormat, type: THREE.UnsignedIntType, internalFormat: 'RGBA32UI' });
 const SHORTS = /** @type {const} */ (
   { format: THREE.RedIntegerFormat, type: THREE.UnsignedShortType, internalFormat: 'R16UI' });
+
+/** A texel of each vertex: the bits of its shares, then both neighbours.
+ *  @param {NonNullable<import('./skin_buffer.js').Skin['leans']>} leans
+ *  @param {number} rows */
+function leansTexture({ shares, neighbours }, rows) {
+  const words = new Uint32Array(4 * WIDTH * rows), floats = new Float32Array(words.buffer);
+  for (let i = 0; 2 * i < neighbours.length; ++i) {
+    floats.set(shares.subarray(3 * i, 3 * i + 3), 4 * i);
+    words[4 * i + 3] = neighbours[2 * i] | neighbours[2 * i + 1] << 16;
+  }
+  return texture(words, words, WIDTH, WORDS);
+}
 
 /** @param {number} rows */
 const target = (rows) => new THREE.WebGLRenderTarget(WIDTH, rows, {
@@ -198,6 +226,7 @@ export class SkinSurface {
   #frames;
   #capsules;
   #textures;
+  #leans = /** @type {THREE.DataTexture|null} */ (null);
   #passes;
   #screen = new THREE.Mesh(new THREE.BufferGeometry().setAttribute(
     'position', new THREE.BufferAttribute(new Float32Array(9), 3)));
@@ -206,7 +235,7 @@ export class SkinSurface {
 
   /** @param {import('./skin_buffer.js').Skin} skin */
   constructor(skin) {
-    const { rig, positions, indices, weights, triangles } = skin;
+    const { rig, positions, indices, weights, triangles, leans } = skin;
     const vertices = positions.length / 3;
     const rows = Math.ceil((vertices + 1) / WIDTH);  // one more, for where the last ring ends
     const { ring, first } = neighboursOf(triangles, vertices);
@@ -254,7 +283,10 @@ export class SkinSurface {
         into: this.#positions,
       },
       {
-        material: pass(NORMALS, { rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture }),
+        material: pass(normalsOf(leans !== null), {
+          rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture,
+          ...leans === null ? {} : { leans: this.#leans = leansTexture(leans, rows) },
+        }),
         into: this.#normals,
       },
       {
@@ -307,6 +339,7 @@ export class SkinSurface {
 
   dispose() {
     for (const each of Object.values(this.#textures)) each.dispose();
+    this.#leans?.dispose();
     for (const { material, into } of this.#passes) {
       material.dispose();
       into.dispose();

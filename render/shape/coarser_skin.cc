@@ -12,6 +12,7 @@
 #include "render/shape/seen_poses.h"
 #include "render/shape/wrong_light.h"
 #include "urdf/kinematics.h"
+#include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
 
 namespace kinescope::render {
@@ -190,6 +191,15 @@ CoarserSkin MakeCoarserSkin(const SkinTemplate& skin, const skin::Build& build,
     return first.skin();
   }
   return Part(whole, simplified()).skin();
+}
+
+CoarserSkin MakeCoarserSkin(const SkinTemplate& skin, const skin::Build& build,
+                            const urdf::Skeleton& skeleton, double error_m) {
+  constexpr double kFineBorders = 0.002;  // m
+  std::vector<skin::Borders> suit;
+  if (skin.colors.empty() && error_m <= kFineBorders) suit = skin::OutfitOf(skin, build);
+  return MakeCoarserSkin(skin, build, skeleton, error_m,
+                         [&](const Triangle& triangle) { return skin::HasBorder(suit, triangle); });
 }
 
 }  // namespace kinescope::render

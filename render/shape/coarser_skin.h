@@ -21,5 +21,8 @@ struct CoarserSkin {
 CoarserSkin MakeCoarserSkin(const skin::SkinTemplate& skin, const skin::Build& build,
                             const urdf::Skeleton& skeleton, double error_m,
                             const std::function<bool(const skin::Triangle&)>& is_kept);
+/// Of a suit, triangles with borders stay as they are where the error is at most 2 mm.
+CoarserSkin MakeCoarserSkin(const skin::SkinTemplate& skin, const skin::Build& build,
+                            const urdf::Skeleton& skeleton, double error_m);
 
 }  // namespace kinescope::render

@@ -29,13 +29,17 @@ class FineNormals {
   /// Those become what the fine surface has there, about.
   void Apply(skin::PersonSkin::Surface& surface) const;
 
- private:
-  // In the basis of the mean normal and of the edges to two neighbours.
+  /// A normal, before it has the length 1: `own` times the mean of the triangles and `along` times
+  /// the edges to two neighbours, 1/m.
   struct Lean {
     std::uint16_t neighbours[2] = {};
     float own = 1, along[2] = {};
   };
-  std::vector<Lean> leans_;  // of each vertex
+  /// Of each vertex.
+  const std::vector<Lean>& leans() const { return leans_; }
+
+ private:
+  std::vector<Lean> leans_;
 };
 
 }  // namespace kinescope::render

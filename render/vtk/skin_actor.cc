@@ -22,18 +22,6 @@ std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles)
   return indices;
 }
 
-bool HasBorder(const std::vector<skin::Borders>& suit, const skin::Triangle& triangle) {
-  constexpr float kNear = 0.002f;  // m: more than the softness of a border
-  if (suit.empty()) return false;
-  const auto is_crossed = [&](float skin::Borders::*border) {
-    const auto [least, most] = std::minmax(
-        {suit[triangle[0]].*border, suit[triangle[1]].*border, suit[triangle[2]].*border});
-    return least < kNear && most > -kNear;
-  };
-  return is_crossed(&skin::Borders::trousers) || is_crossed(&skin::Borders::bare) ||
-         is_crossed(&skin::Borders::shoes) || is_crossed(&skin::Borders::bands);
-}
-
 void ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded) {
   constexpr float kHidden = 2;
   constexpr int kCount = static_cast<int>(skin::kRegions);
@@ -56,16 +44,11 @@ void ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded) {
 }  // namespace
 
 std::unique_ptr<SkinSurface> SkinActor::SurfaceWithin(double error_m) const {
-  constexpr double kFineBorders = 0.002;  // m: with no more error, borders stay as they are
   std::shared_ptr<const skin::SkinTemplate> of = own_;
   if (of == nullptr) of = {std::shared_ptr<void>(), &skin::BuiltInSkin()};
   FineNormals normals;
   if (error_m > 0) {
-    std::vector<skin::Borders> suit;
-    if (of->colors.empty() && error_m <= kFineBorders) suit = skin::OutfitOf(*of, build_);
-    CoarserSkin coarser =
-        MakeCoarserSkin(*of, build_, model_->human.skeleton, error_m,
-                        [&](const skin::Triangle& triangle) { return HasBorder(suit, triangle); });
+    CoarserSkin coarser = MakeCoarserSkin(*of, build_, model_->human.skeleton, error_m);
     of = std::make_shared<skin::SkinTemplate>(std::move(coarser.skin));
     normals = std::move(coarser.normals);
   }
@@ -89,7 +72,7 @@ void SkinActor::AddActors(const SkinShading& shading, Level& level) const {
   const bool is_whole = pass_ == Pass::kVeil && !surface.suit().empty();
   std::vector<skin::Triangle> plain, bordered;
   for (const skin::Triangle& triangle : surface.triangles()) {
-    (is_whole || HasBorder(surface.suit(), triangle) ? bordered : plain).push_back(triangle);
+    (is_whole || skin::HasBorder(surface.suit(), triangle) ? bordered : plain).push_back(triangle);
   }
   add(shading, plain);
   SkinShading with_borders = shading;

@@ -27,6 +27,7 @@ constexpr char kSnapshotPath[] = "/api/v1/snapshot.png";
 constexpr char kFilePath[] = "/api/v1/file/{name}";
 constexpr char kMeshPath[] = "/api/v1/mesh/{person}/{revision}/{number}";
 constexpr char kSkinPath[] = "/api/v1/skin/{person}/{revision}";
+constexpr int kMostSkinError = 10;  // mm: with more, people lose their hands
 
 bool IsCostly(const Target& target) { return StartsWith(target.path, "/api/v1/"); }
 
@@ -446,16 +447,27 @@ Answer Router::Mesh(const Request& request, Role /*role*/) const {
 }
 
 Answer Router::Skin(const Request& request, Role /*role*/) const {
-  const auto numbers = NumbersOf<2>(ParseTarget(request.target)->path, kSkinPath);
+  const auto target = ParseTarget(request.target);
+  const auto numbers = NumbersOf<2>(target->path, kSkinPath);
   if (!numbers) return Refuse(404, "unknown address", std::string("expected ") + kSkinPath);
   const auto [person, revision] = *numbers;
+  int error_mm = 0;
+  if (const auto given = target->query.find("error_mm"); given != target->query.end()) {
+    const auto number = ParseNumber<int>(given->second);
+    if (!number || *number < 0 || *number > kMostSkinError) {
+      return Refuse(400, "bad skin",
+                    "error_mm=" + given->second + ": expected a whole number from 0 to " +
+                        std::to_string(kMostSkinError));
+    }
+    error_mm = *number;
+  }
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto model = FindModelWithSkin(state.get(), ToCharacter(person), revision);
   if (!model) {
     return Refuse(404, "no such skin", "this is not the newest model, or it is made of parts");
   }
-  return AnswerOfModel(*skins_.Of(model, site_.own_skin.get()), "application/octet-stream",
-                       request);
+  return AnswerOfModel(*skins_.Of(model, site_.own_skin.get(), error_mm),
+                       "application/octet-stream", request);
 }
 
 Answer Router::Surroundings(const Request& request, Role /*role*/) const {

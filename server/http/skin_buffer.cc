@@ -8,6 +8,8 @@
 
 #include "core/skin_inputs.h"
 #include "core/system/json_text.h"
+#include "render/shape/coarser_skin.h"
+#include "render/shape/fine_normals.h"
 #include "urdf/skin/contact.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/limbs.h"
@@ -192,12 +194,37 @@ std::vector<std::int8_t> BordersInSteps(const std::vector<skin::Borders>& all) {
   return steps;
 }
 
+using Lean = render::FineNormals::Lean;
+
+std::vector<float> FloatsOf(const std::vector<Lean>& leans) {
+  std::vector<float> floats;
+  floats.reserve(3 * leans.size());
+  for (const Lean& lean : leans) {
+    floats.insert(floats.end(), {lean.own, lean.along[0], lean.along[1]});
+  }
+  return floats;
+}
+
+std::vector<std::uint16_t> NeighboursOf(const std::vector<Lean>& leans) {
+  std::vector<std::uint16_t> neighbours;
+  neighbours.reserve(2 * leans.size());
+  for (const Lean& lean : leans) {
+    neighbours.insert(neighbours.end(), {lean.neighbours[0], lean.neighbours[1]});
+  }
+  return neighbours;
+}
+
 }  // namespace
 
-std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) {
+std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own, int error_mm) {
   const urdf::HumanModel& human = model.human;
-  const skin::SkinTemplate& of = own != nullptr ? *own : skin::BuiltInSkin();
   const skin::Build build = BuildOf(model);
+  const skin::SkinTemplate& whole = own != nullptr ? *own : skin::BuiltInSkin();
+  render::CoarserSkin coarser;
+  if (error_mm > 0) {
+    coarser = render::MakeCoarserSkin(whole, build, human.skeleton, 1e-3 * error_mm);
+  }
+  const skin::SkinTemplate& of = error_mm > 0 ? coarser.skin : whole;
   const skin::PersonSkin skin(of, build, human.skeleton, GlovesOf(human));
 
   float farthest = 0;
@@ -227,6 +254,7 @@ std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) 
                     {"border_step_m", kBorderStep},
                     {"paint", of.colors.empty() ? "suit" : "colors"},
                     {"two_sided", of.is_two_sided},
+                    {"leans", error_mm > 0},
                     {"frames", FramesToJson(human)},
                     {"limbs", LimbsToJson(human.skeleton, build)},
                     {"regions", RegionsToJson(skin.bind(), human.skeleton.height)},
@@ -246,22 +274,25 @@ std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) 
          std::vector<std::uint32_t>{static_cast<std::uint32_t>(header.size() + blanks.size())});
   bytes += header + blanks;
   Append(bytes, bind);
+  Append(bytes, FloatsOf(coarser.normals.leans()));
   Append(bytes, of.weights);
   bytes += paint;
+  Append(bytes, NeighboursOf(coarser.normals.leans()));
   Append(bytes, positions);
   Append(bytes, of.triangles);
   return bytes;
 }
 
 std::shared_ptr<const std::string> SkinBuffers::Of(const std::shared_ptr<const PersonModel>& model,
-                                                   const skin::SkinTemplate* own) {
+                                                   const skin::SkinTemplate* own, int error_mm) {
   made_.erase(std::remove_if(made_.begin(), made_.end(),
                              [](const Made& made) { return made.model.expired(); }),
               made_.end());
   for (const Made& made : made_) {
-    if (made.model.lock() == model) return made.buffer;
+    if (made.model.lock() == model && made.error_mm == error_mm) return made.buffer;
   }
-  made_.push_back({model, std::make_shared<const std::string>(SkinBuffer(*model, own))});
+  made_.push_back(
+      {model, error_mm, std::make_shared<const std::string>(SkinBuffer(*model, own, error_mm))});
   return made_.back().buffer;
 }
 

@@ -153,3 +153,34 @@ test('the choice where loads are shown has room beside everything else', async (
   }
   await site.stop();
 });
+
+// In the page, before its own programs: pictures take 60 ms each, and `trianglesDrawn` are those of the largest mesh of the
+// last one.
+function drawSlowly() {
+  let largest = 0;
+  const { drawElements } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.drawElements = function draw(mode, count, ...more) {
+    largest = Math.max(largest, count / 3);
+    return drawElements.call(this, mode, count, ...more);
+  };
+  window.requestAnimationFrame = (callback) => setTimeout(() => {
+    largest = 0;
+    callback(performance.now());
+    if (largest > 0) window.trianglesDrawn = largest;
+  }, 60);
+}
+
+test('a view that cannot keep up is drawn with fewer triangles, and at rest with all', async () => {
+  const site = await serve(await record('walk', 5, []), ['--loop', '--pictures', 'off']);
+  const { page, problems, close } = await openPage(site.url, { beforeLoad: (opened) => opened.addInitScript(drawSlowly) });
+  await page.waitForFunction(() => window.trianglesDrawn > 30000, null, LONG);
+  await page.waitForFunction(() => window.trianglesDrawn < 8000, null, LONG);
+  await saveScreenshot(page, 'skin_coarse');
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await settled(page);
+  await page.waitForFunction(() => window.trianglesDrawn > 30000, null, LONG);
+  await saveScreenshot(page, 'skin_at_rest');
+  assert.deepEqual(problems, []);
+  await close();
+  await site.stop();
+});

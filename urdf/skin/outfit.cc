@@ -66,4 +66,16 @@ std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build) {
   return all;
 }
 
+bool HasBorder(const std::vector<Borders>& suit, const Triangle& triangle) {
+  constexpr float kNear = 0.002f;  // m
+  if (suit.empty()) return false;
+  const auto is_crossed = [&](float Borders::*border) {
+    const auto [least, most] = std::minmax(
+        {suit[triangle[0]].*border, suit[triangle[1]].*border, suit[triangle[2]].*border});
+    return least < kNear && most > -kNear;
+  };
+  return is_crossed(&Borders::trousers) || is_crossed(&Borders::bare) ||
+         is_crossed(&Borders::shoes) || is_crossed(&Borders::bands);
+}
+
 }  // namespace kinescope::skin

@@ -19,4 +19,8 @@ inline constexpr float kFarthestBorder = 0.05f;
 /// Of each vertex of `skin`.
 std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build);
 
+/// Whether a border goes through the triangle, or less than 2 mm beside it: its softness is less.
+/// @param suit OutfitOf(), or empty: no borders
+bool HasBorder(const std::vector<Borders>& suit, const Triangle& triangle);
+
 }  // namespace kinescope::skin

@@ -85,6 +85,23 @@ test('a truncated or altered skin is rejected', () => {
   assert.throws(() => readSkin(altered(triangles + 1, 255), 'skin'), /corner that is no vertex/);
 });
 
+test('a skin of fewer triangles takes a quarter of the bytes, and its normals lean on vertices that it has', () => {
+  for (const { hex, coarse_hex: coarseHex } of told.skins) {
+    const buffer = toBuffer(coarseHex), { leans, positions, triangles, rig } = readSkin(buffer, 'skin');
+    assert.ok(buffer.byteLength < toBuffer(hex).byteLength / 4, `${buffer.byteLength} bytes`);
+    assert.ok(triangles.length > 3 * 3000 && triangles.length < 3 * 6000, `${triangles.length / 3} triangles`);
+    const vertices = positions.length / 3;
+    assert.deepEqual([leans.shares.length, leans.neighbours.length], [3 * vertices, 2 * vertices]);
+    assert.ok(leans.shares.every(Number.isFinite));
+    const bytes = new Uint8Array(buffer.slice(0));
+    const neighbours = 4 + new DataView(buffer).getUint32(0, true) + 28 * rig.frames.length + 24 * vertices;
+    bytes.fill(255, neighbours, neighbours + 2);
+    assert.throws(() => readSkin(bytes.buffer, 'skin'), /leans on what is no vertex/);
+    assert.throws(() => readSkin(withHeader(buffer, (header) => { header.leans = false; }), 'skin'), /bytes instead of/);
+    assert.equal(readSkin(toBuffer(hex), 'skin').leans, null);
+  }
+});
+
 test('a rigged person of the user has colours, and need not be closed', () => {
   const buffer = toBuffer(told.own_skin.hex);
   const skin = readSkin(buffer, 'skin');

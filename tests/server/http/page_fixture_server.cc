@@ -33,6 +33,7 @@
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
 #include "core/system/scratch_folder.h"
+#include "render/shape/coarser_skin.h"
 #include "server/alarms/alarms.h"
 #include "server/alarms/rule_file.h"
 #include "server/http/api.h"
@@ -117,16 +118,17 @@ json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 // Some of the vertices in order: their places, and the share of the sky over them.
-json SurfaceToJson(const PersonModel& model, const PersonState& person,
+json SurfaceToJson(const render::CoarserSkin& of, const PersonModel& model,
+                   const PersonState& person,
                    const std::array<const urdf::HandSkeleton*, 2>& gloves,
                    const std::array<const urdf::FingerPoses*, 2>& fingers) {
   const urdf::Skeleton& skeleton = model.human.skeleton;
   const skin::Build build = BuildOf(model);
-  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
   skin::PersonSkin::Surface surface;
-  skin::PersonSkin(built_in, build, skeleton, gloves).Pose(person.links, fingers, surface);
+  skin::PersonSkin(of.skin, build, skeleton, gloves).Pose(person.links, fingers, surface);
+  of.normals.Apply(surface);
   std::vector<float> open;
-  skin::SetOpenSky(surface.positions, surface.normals, skin::LimbRunsOf(built_in.weights),
+  skin::SetOpenSky(surface.positions, surface.normals, skin::LimbRunsOf(of.skin.weights),
                    skin::CapsulesOf(skeleton, build, person.links), open);
   json some_open = json::array(), places = json::array();
   for (std::size_t i = 0; i < open.size(); i += kSkyStep) {
@@ -154,13 +156,19 @@ json RegionsToJson(const PersonModel& model,
   return {{"joints", std::move(joints)}, {"inside", std::move(inside)}};
 }
 
+constexpr int kCoarseError = 4;  // mm
+
 // The buffer of the person's skin, and frames and sky for random postures as the server computes
-// them.
+// them; also of a skin of fewer triangles.
 json SkinToJson(const PersonState& person) {
   PersonModel model = *person.model;
   model.has_built_in_surface = true;
   const urdf::Skeleton& skeleton = model.human.skeleton;
   const std::string buffer = SkinBuffer(model, nullptr);
+  const std::string coarse_buffer = SkinBuffer(model, nullptr, kCoarseError);
+  const render::CoarserSkin whole = {skin::BuiltInSkin(), {}};
+  const render::CoarserSkin coarse =
+      render::MakeCoarserSkin(whole.skin, BuildOf(model), skeleton, 1e-3 * kCoarseError);
   std::mt19937 random(7);
   const auto angle = [&](double most) {
     return most * (static_cast<double>(random()) / 2147483648.0 - 1);
@@ -195,13 +203,15 @@ json SkinToJson(const PersonState& person) {
     }
     postures.push_back({{"links", links},
                         {"frames", frames},
-                        {"surface", SurfaceToJson(model, moved, gloves, fingers)}});
+                        {"surface", SurfaceToJson(whole, model, moved, gloves, fingers)},
+                        {"coarse", SurfaceToJson(coarse, model, moved, gloves, fingers)}});
   }
   std::array<const urdf::HandSkeleton*, 2> gloves{};
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (person.gloves[side]) gloves[side] = &*model.human.gloves[side];
   }
   return {{"hex", Hex({buffer.begin(), buffer.end()})},
+          {"coarse_hex", Hex({coarse_buffer.begin(), coarse_buffer.end()})},
           {"sky_step", kSkyStep},
           {"regions", RegionsToJson(model, gloves)},
           {"postures", postures}};

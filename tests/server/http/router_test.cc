@@ -162,6 +162,17 @@ TEST_F(RouterTest, ServesTheSkinOfTheNewestModelUnlessItIsMadeOfParts) {
   again.if_none_match = HeaderOf(skin, "ETag");
   EXPECT_EQ(Send(again).status, 304);
   EXPECT_TRUE(Send(again).body.empty());
+  EXPECT_EQ(Get("/api/v1/skin/0/8?error_mm=0").body, skin.body);
+  const Answer coarse = Get("/api/v1/skin/0/8?error_mm=4");
+  EXPECT_EQ(coarse.status, 200);
+  EXPECT_LT(coarse.body.size(), skin.body.size() / 4);
+  EXPECT_LT(Get("/api/v1/skin/0/8?error_mm=10").body.size(), coarse.body.size());
+  EXPECT_EQ(Get("/api/v1/skin/0/8?error_mm=4").body, coarse.body);
+  for (const char* error : {"11", "-1", "4.5", "", "x", "99999999999"}) {
+    const Answer refused = Get(std::string("/api/v1/skin/0/8?error_mm=") + error);
+    EXPECT_EQ(refused.status, 400) << error;
+    EXPECT_THAT(ErrorIn(refused), HasSubstr("expected a whole number from 0 to 10"));
+  }
   for (const char* target :
        {"/api/v1/skin/0/7", "/api/v1/skin/1/8", "/api/v1/skin/18446744073709551615/8",
         "/api/v1/skin/0", "/api/v1/skin/0/8/0", "/api/v1/skin/a/8", "/api/v1/skin/0/-8"}) {
