@@ -1,5 +1,5 @@
 // Where alarms are seen: one line beside the lamp, which is always there, and the list of those that were.
-import { isNew } from './alarms.js';
+import { isNew, SERVER_LOST } from './alarms.js';
 import { AlarmSound } from './alarm_sound.js';
 import { detailText, headline, lengthText, limitText, stars, valueText } from './alarm_text.js';
 import { clockText } from './strip.js';
@@ -19,6 +19,7 @@ export class AlarmPanel {
   #sound = new AlarmSound();
   #drawn = '';
   #told = 0;  // id
+  #isLossTold = false;
 
   /** @param {Parts} parts
    *  @param {import('./alarms.js').Alarms} alarms
@@ -33,7 +34,7 @@ export class AlarmPanel {
     parts.acknowledge.addEventListener('click', () => this.#acknowledge());
     parts.sound.addEventListener('click', () => this.#mute());
     parts.show.addEventListener('click', () => {
-      const first = this.alarms.shown[0] ?? this.alarms.last;
+      const first = this.alarms.shown.find(hasMoment) ?? this.alarms.last;
       if (first) this.#goTo(first);
     });
     parts.test.addEventListener('click', () => {
@@ -91,18 +92,26 @@ export class AlarmPanel {
     parts.area.dataset.priority = first?.priority ?? 'none';
     parts.area.dataset.state = first === null ? 'none' : !isNew(first) ? 'acknowledged' : first.is_on ? 'on' : 'over';
     setText(parts.stars, first ? stars(first) : '');
-    setText(parts.head, first ? headline(first, page.jointLabel) : 'No alarm');
-    setText(parts.detail, first ? detailText(first, alarms.count - 1, micros)
+    setText(parts.head, first ? headline(first, page.jointLabel) : alarms.isCurrent ? 'No alarm' : 'Alarms unknown');
+    setText(parts.detail, first ? detailText(first, alarms.count - 1, micros) : !alarms.isCurrent ? 'the server does not answer'
       : last ? `last: ${headline(last, page.jointLabel)}, ${clockText(page.wallMillis(last.began.micros), 1)}` : 'none since the start');
-    parts.show.disabled = !page.canPress || (first === null && last === null);
+    parts.show.disabled = !page.canPress || !(alarms.shown.some(hasMoment) || last !== null);
     parts.acknowledge.hidden = first === null || !isNew(first);
+    this.#tellLoss(alarms.shown.some(({ id }) => id === SERVER_LOST));
     const newest = Math.max(0, ...alarms.shown.filter(isNew).map(({ id }) => id));
     if (newest > this.#told && first) {
       this.#told = newest;
       setText(parts.told, `Alarm, ${first.priority}: ${headline(first, page.jointLabel)}`);
-    } else if (first === null && this.#told > 0 && parts.told.textContent !== 'No alarm') {
+    } else if (first === null && alarms.isCurrent && this.#told > 0 && parts.told.textContent !== 'No alarm') {
       setText(parts.told, 'No alarm');
     }
+  }
+
+  /** @param {boolean} isLost  the server */
+  #tellLoss(isLost) {
+    if (isLost && !this.#isLossTold) setText(this.parts.told, 'Alarm, high: server lost');
+    if (!isLost && this.#isLossTold) setText(this.parts.told, 'The server answers again');
+    this.#isLossTold = isLost;
   }
 
   /** @param {number} now */
@@ -149,6 +158,10 @@ export class AlarmPanel {
     return item;
   }
 }
+
+/** Whether the server had a state when it began.
+ *  @param {Alarm} alarm */
+const hasMoment = ({ id }) => id !== SERVER_LOST;
 
 /** @param {HTMLElement} part
  *  @param {string} text */

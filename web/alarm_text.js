@@ -30,6 +30,7 @@ export function headline(alarm, jointLabel) {
   // While it lasts, the value of now; afterwards the worst.
   const value = valueText(alarm.is_on ? alarm.value : alarm.worst, alarm);
   if (alarm.quantity === 'stale') return `${who}: no sample for ${value}`;
+  if (alarm.quantity === 'server') return `Server lost for ${value}`;
   if (alarm.quantity === 'lost') return `${who} lost for ${value}`;
   const joint = alarm.joint === null ? '' : `${jointLabel(alarm.joint)} `;
   return `${who} ${joint}${value} ${QUANTITIES[alarm.quantity] ?? alarm.rule}`;

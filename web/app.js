@@ -444,13 +444,14 @@ function showReadings() {
   showStatus(status, now);
   showTransport(now);
   stream.show(now, ageMillisAt(now), connection.clock.at(now));
-  charts.update(now);
+  charts.update(now, wasFresh());
   picture.setSeen(elements['picture-frame'].clientWidth > 0);
   picture.setMoment(formerNow(), now);
   picture.setLost(status.level === 'disconnected' ? 'The server does not answer' : '');
   loadMarks(now);
   markPad.update(now);
   loadAlarms(now);
+  alarms.setConnected(status.level !== 'disconnected', now, shown.newest?.madeMicros ?? 0);
   alarmPanel.update(now);
   scene?.updateSurroundings(shown.details.surroundings, now);
   shown.keepAddress(now);
@@ -506,7 +507,7 @@ function showPeople(isFresh) {
   const fresh = isFresh ? rows : rows.map(asUnknown);
   showLoads(fresh);
   const one = person.of(now.people);
-  cards.show(now, texts.people, fresh, one?.character, performance.now());
+  const isWritten = cards.show(now, texts.people, fresh, one?.character, performance.now());
   announcer.showClasses(fresh, isFresh && shown.isNewest, performance.now());
   const readings = readingsOf(one, texts.people.find(({ character }) => character === one?.character), isFresh);
   setText('loads-hint', readings.hint);
@@ -514,6 +515,7 @@ function showPeople(isFresh) {
   elements['loads-hint'].classList.toggle('warn', readings.isDoubtful);
   setText('com', readings.com);
   setText('cop', readings.cop);
+  if (!isWritten) return;  // with the same numbers of the card
   setText('support', readings.support);
   setText('compression', readings.compression);
   elements['compression-row'].hidden = readings.compression === '';

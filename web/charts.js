@@ -62,8 +62,9 @@ export class Charts {
   }
 
   /** Call it several times a second.
-   *  @param {number} now  browser's clock, ms */
-  update(now) {
+   *  @param {number} now  browser's clock, ms
+   *  @param {boolean} isFresh  whether what is shown is of now, or was when it was the newest */
+  update(now, isFresh) {
     const kept = this.shown.kept(), model = this.page.model(), live = this.shown.newest, { time } = this.shown;
     if (kept === null || live === null || document.hidden) return;
     if (live.madeMicros !== this.#newest) this.#clock.add(live.madeMicros / 1000, Date.now());
@@ -73,7 +74,7 @@ export class Charts {
       oldest: 1000 * kept.oldest, newest: 1000 * kept.newest, moment: 1000 * time.momentAt(now, kept),
       isLive: time.isLive, wallMillis: (/** @type {number} */ micros) => this.#clock.at(micros),
     };
-    if (model !== null) this.#showPlots(when, model, live);
+    if (model !== null) this.#showPlots(when, model, live, isFresh);
     this.strip.draw(this.#people, when);
     this.#feed.update([...this.plots.wanted(when), ...this.strip.wanted(this.#people, when)], when.newest, now)
       .then((reason) => { if (reason) this.page.failed(reason); });
@@ -95,28 +96,30 @@ export class Charts {
 
   /** @param {import('./plots.js').When} when
    *  @param {import('./messages.js').Model} model
-   *  @param {State} live */
-  #showPlots(when, model, live) {
+   *  @param {State} live
+   *  @param {boolean} isFresh */
+  #showPlots(when, model, live, isFresh) {
     const first = live.people[0] ?? this.shown.state?.people[0];
     const { class_limits: limits } = this.shown.details;
     if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), limits, model.compression_limits_n);
     this.plots.setPeople(this.shown.newestDetails.people);
-    this.#showBody(model);
+    this.#showBody(model, isFresh);
     const shown = this.shown.state;
-    const person = shown?.people.find(({ character }) => character === this.plots.character);
+    const person = isFresh ? shown?.people.find(({ character }) => character === this.plots.character) : undefined;
     this.plots.draw(when, {
       com: person?.com ?? null, cop: person?.cop ?? null, support: person?.support ?? [], heading: shown?.viewHeading ?? 0,
     });
   }
 
-  /** @param {import('./messages.js').Model} model */
-  #showBody(model) {
+  /** @param {import('./messages.js').Model} model
+   *  @param {boolean} isFresh */
+  #showBody(model, isFresh) {
     const shown = this.shown.state, { people } = this.shown.details;
     const person = this.page.person.of(shown?.people ?? []);
     if (!shown || !person) return;
     const words = people.find(({ character }) => character === person.character);
     this.body.show(shown.madeMicros, person.loads.map((load) => ({
-      ...model.joints[load.joint], loadClass: load.loadClass, ratio: load.ratio,
+      ...model.joints[load.joint], loadClass: isFresh ? load.loadClass : 'unknown', ratio: isFresh ? load.ratio : NaN,
       secs: words?.loads.find(({ joint }) => joint === load.joint)?.secs_in_band,
     })), this.plots.chosen);
   }

@@ -17,6 +17,7 @@ export class MarkPad {
   #saidUntil = -Infinity;
   #drawn = '';
   /** @type {readonly Mark[]} */ #listed = [];  // marks of the list that is drawn
+  /** @type {{state: number, sample: number}|null} */ #meant = null;  // by the text that is being written
 
   /** @param {Parts} parts
    *  @param {import('./marks.js').Marks} marks
@@ -35,9 +36,25 @@ export class MarkPad {
       event.preventDefault();
       const text = parts.text.value.trim();
       if (text === '') return;
-      this.#mark({ text }).then((isKept) => { if (isKept) parts.text.value = ''; });
+      const meant = this.#meant;
+      this.#tell((state) => this.marks.add({ state: meant?.state ?? state, text })).then((isKept) => {
+        if (!isKept) return;
+        parts.text.value = '';
+        this.#meant = null;
+      });
       parts.text.blur();  // so that the keys work again
     });
+    // A text takes seconds to write: it marks what was seen when it was begun.
+    parts.text.addEventListener('input', () => {
+      if (parts.text.value === '') this.#meant = null;
+      else this.#mean();
+    });
+    parts.text.addEventListener('keydown', ({ key }) => {
+      if (key !== 'Escape') return;
+      parts.text.value = '';
+      parts.text.blur();
+    });
+    parts.text.addEventListener('blur', () => { if (parts.text.value.trim() === '') this.#meant = null; });
     parts.undo.addEventListener('click', () => this.#undo());
     const digits = Array.from({ length: MOST_BUTTONS }, (_, i) => i + 1);
     for (const [prefix, isSpan] of /** @type {const} */ ([['', false], ['Shift+', true]])) {
@@ -45,7 +62,10 @@ export class MarkPad {
     }
     keys.add('Marks', ['1', '9'], 'Set a mark, by its button', null);
     keys.add('Marks', ['Shift+1', 'Shift+9'], 'Begin a span; again: end it', null);
-    keys.add('Marks', 'M', 'Text of a mark', () => parts.text.focus());
+    keys.add('Marks', 'M', 'Text of a mark, which marks the sample of now', () => {
+      parts.text.focus();
+      this.#mean();
+    });
     keys.add('Marks', '[', 'The previous mark', () => this.#goToNeighbour(-1), { repeats: true });
     keys.add('Marks', ']', 'The next mark', () => this.#goToNeighbour(1), { repeats: true });
     keys.add('Marks', 'Ctrl+Z', 'Remove the last mark of this page', () => this.#undo());
@@ -87,6 +107,13 @@ export class MarkPad {
       this.notice(`The mark was not set: ${messageOf(error)}`);
       return false;
     }
+  }
+
+  /** The text that is being written is about what is on the screen now, unless it has been begun before. */
+  #mean() {
+    const { state } = this.shown;
+    if (this.#meant !== null || state === null || state.liveness === 'no data') return;
+    this.#meant = { state: this.stateInView() ?? state.stateNumber, sample: state.counter };
   }
 
   /** Those that were set while the server was away.
@@ -146,6 +173,7 @@ export class MarkPad {
     const { parts, marks, shown } = this;
     parts.undo.disabled = marks.lastOwn === null;
     if (marks.waiting > 0) this.#say(waitText(marks.waiting));
+    if (this.#meant !== null) this.#say(`This text marks sample ${this.#meant.sample}`);
     if (now > this.#saidUntil && parts.said.textContent !== '') parts.said.textContent = '';
     const list = marks.list(), { recording } = shown.newestDetails;
     const drawn = JSON.stringify([marks.names, recording?.start_micros, this.isViewer()]);
@@ -198,7 +226,7 @@ export class MarkPad {
     gate.className = 'gate';
     gate.disabled = this.isViewer();
     gate.append(remove);
-    gate.hidden = mark.kind === 'change';  // a change is not undone by forgetting it
+    gate.hidden = mark.kind !== 'mark';  // a change or a trial is not undone by forgetting it
     item.append(go, gate);
     return item;
   }

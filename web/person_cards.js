@@ -13,10 +13,11 @@ const WALL_PEOPLE = 4;  // a wall has room for so many (layouts.css); alarms nam
  *  @typedef {{character: number, label: string, loadClass: LoadClass, joint: string, key: string, ratio: number,
  *    compression: number, margin: number}} Summary  of one person; joint '': none is known; compression in N, margin in m,
  *    NaN where unknown
- *  @typedef {{pause: number, digits: {compression: number, margin: number}}} Kind  pause: ms between two texts; digits:
- *    after the point */
+ *  @typedef {{pause: number, digits: {compression: number, margin: number}, unknown: string}} Kind  pause: ms between two texts;
+ *    digits: after the point; unknown: instead of a joint */
 
-const NEAR = { pause: 250, digits: { compression: 2, margin: 1 } }, WALL = { pause: 500, digits: { compression: 1, margin: 0 } };
+const NEAR = { pause: 250, digits: { compression: 2, margin: 1 }, unknown: 'Load unknown' };
+const WALL = { pause: 500, digits: { compression: 1, margin: 0 }, unknown: 'Unknown' };
 
 /** Which of the colours of people.css a person has: the same on every page.
  *  @param {number} character */
@@ -104,10 +105,11 @@ class Card {
 
   /** @param {Summary} person
    *  @param {number} now  ms
-   *  @param {Kind} kind */
-  show(person, now, { pause, digits }) {
+   *  @param {Kind} kind
+   *  @returns {boolean}  whether it has written the numbers */
+  show(person, now, { pause, digits, unknown }) {
     const isSame = person.loadClass === this.#loadClass && this.#name.textContent === person.label;
-    if (isSame && now - this.#writtenAt < pause) return;
+    if (isSame && now - this.#writtenAt < pause) return false;
     this.#writtenAt = now;
     this.#loadClass = person.loadClass;
     this.element.dataset.class = person.loadClass;
@@ -115,10 +117,11 @@ class Card {
     setText(this.#name, person.label);
     this.element.title = person.label;
     setText(this.#ratio, percent(person.ratio));
-    setText(this.#where, person.joint || 'Load unknown');
+    setText(this.#where, person.joint || unknown);
     setText(this.#class, person.joint ? ` ${person.loadClass}` : '');
     this.#write('compression', figureText(person.compression / 1000, digits.compression, 'kN'));
     this.#write('margin', figureText(100 * person.margin, digits.margin, 'cm'));
+    return true;
   }
 
   /** @param {'compression'|'margin'} which
@@ -140,6 +143,7 @@ export class PersonCards {
   /** @type {Map<number, Card>} */ #cards = new Map();
   /** @type {Map<number, string>} */ #highest = new Map();  // key of the row, by person
   #order = '';
+  #chosen = -1;
 
   /** @param {HTMLElement} list
    *  @param {((character: number) => void)|null} choose  null: cards are no controls
@@ -156,8 +160,11 @@ export class PersonCards {
    *  @param {{character: number, name: string}[]} names
    *  @param {Row[]} rows  of all
    *  @param {number|undefined} chosen  character
-   *  @param {number} now  ms */
+   *  @param {number} now  ms
+   *  @returns {boolean}  whether the numbers of the chosen person have been written, or another one has been chosen */
   show(state, names, rows, chosen, now) {
+    let isWritten = chosen !== this.#chosen;
+    this.#chosen = chosen ?? -1;
     const people = state.people.map((person) => {
       const name = names.find(({ character }) => character === person.character)?.name ?? '';
       const its = rows.filter(({ key }) => key.startsWith(`${person.character}/`));
@@ -169,11 +176,12 @@ export class PersonCards {
     for (const person of people) {
       const card = this.#cards.get(person.character) ?? new Card(person.character, this.choose, this.shape);
       this.#cards.set(person.character, card);
-      card.show(person, now, this.kind);
+      const isNew = card.show(person, now, this.kind);
+      if (person.character === chosen) isWritten ||= isNew;
       card.press(person.character === chosen);
     }
     const order = people.map(({ character }) => character).join();
-    if (order === this.#order) return;
+    if (order === this.#order) return isWritten;
     this.#order = order;
     for (const character of this.#cards.keys()) {
       if (!people.some((person) => person.character === character)) this.#cards.delete(character);
@@ -181,5 +189,6 @@ export class PersonCards {
     this.list.dataset.count = String(people.length);
     this.list.dataset.more = people.length > WALL_PEOPLE ? `and ${people.length - WALL_PEOPLE} more, on the desk` : '';
     this.list.replaceChildren(...people.flatMap(({ character }) => this.#cards.get(character)?.element ?? []));
+    return isWritten;
   }
 }

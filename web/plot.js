@@ -250,19 +250,20 @@ export class Plot {
     ctx.fillStyle = this.#color('quiet');
     ctx.font = `700 ${10 * pxRatio}px ${getComputedStyle(this.box).fontFamily}`;
     ctx.textBaseline = 'top';
-    for (const { micros, endMicros, label } of flagsApart(this.#flags, { from, to }, xOf)) {
+    for (const { micros, endMicros, label, hasRoom } of flagsApart(this.#flags, { from, to }, xOf, SIGN_PX * pxRatio)) {
       const left = Math.max(bbox.left, xOf(micros));
       if (endMicros !== null) ctx.fillRect(left, bbox.top, Math.min(bbox.left + bbox.width, xOf(endMicros)) - left, 2 * pxRatio);
       if (micros < from) continue;
       ctx.globalAlpha = 0.6;
       ctx.fillRect(left - pxRatio / 2, bbox.top, pxRatio, bbox.height);
       ctx.globalAlpha = 1;
-      ctx.fillText([...label].slice(0, 2).join(''), left + 3 * pxRatio, bbox.top + 3 * pxRatio);
+      if (hasRoom) ctx.fillText([...label].slice(0, 2).join(''), left + 3 * pxRatio, bbox.top + 3 * pxRatio);
     }
   }
 }
 
 const EDGE = 0.07;
+const SIGN_PX = 17;  // of a mark, two letters
 const CLOCK_STEPS_SECS = [1, 2, 5, 10, 20, 60, 120, 300, 600];
 
 /** @param {Window} window

@@ -6,6 +6,7 @@ import { Series } from './series.js';
 import { theme } from './theme.js';
 
 export const STRIP_KEYS = /** @type {const} */ (['high_joints', 'medium_joints', 'unknown_joints', 'loss']);
+const SIGN_PX = 21;  // of a mark, two letters
 const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13, ALARMS_PX = 8;
 const LOW_PX = 64;  // below this height people and alarms have all of it
 const MOST_ROWS = 6;  // the last one has the worst of all further people
@@ -353,7 +354,7 @@ class Painter {
     this.#label('Marks', MARKS_PX / 2);
     context.font = `700 11px ${this.font}`;
     context.textAlign = 'center';
-    for (const { micros, endMicros, label } of flagsApart(marks, { from: when.oldest, to: when.newest }, xOf)) {
+    for (const { micros, endMicros, label, hasRoom } of flagsApart(marks, { from: when.oldest, to: when.newest }, xOf, SIGN_PX)) {
       if (endMicros !== null) {
         const from = Math.max(xOf(micros), xOf(when.oldest));
         this.#use('quiet');
@@ -363,6 +364,7 @@ class Painter {
       const x = Math.round(xOf(micros)), text = [...label].slice(0, 2).join('') || '•';
       this.#use('quiet');
       context.fillRect(x - 1, 1, 2, MARKS_PX - 1);
+      if (!hasRoom) continue;
       const wide = 6 + 7 * [...text].length, left = Math.min(x, right - wide);
       context.fillRect(left, 1, wide, MARKS_PX - 4);
       this.#use('panel');

@@ -149,6 +149,29 @@ test('a lost stream raises without a rule, on the phone, too, and ends by itself
   await site.stop();
 });
 
+test('a server that is lost raises an alarm of the page itself, which sounds and ends by itself', async () => {
+  const site = await start();
+  const { page, close } = await open(site.url);
+  await roleIs(page, 'operator');
+  await page.keyboard.press('Shift');  // browsers sound only after a key or a click
+  await alarmIs(page, 'none');
+  process.kill(site.pid, 'SIGSTOP');
+  await headIs(page, /^Alarms unknown$/);
+  await alarmIs(page, 'on');
+  await headIs(page, /^Server lost for \d+\.\d s$/);
+  assert.equal(await page.getAttribute('#alarm', 'data-priority'), 'high');
+  assert.equal(await page.textContent('#alarm-told'), 'Alarm, high: server lost');
+  await page.waitForFunction(() => Number(document.getElementById('alarm-sound').dataset.played) === 1, null, LONG);
+  await saveScreenshot(page, 'alarm_server_lost');
+  await page.keyboard.press('a');
+  await alarmIs(page, 'acknowledged');
+  process.kill(site.pid, 'SIGCONT');
+  await page.waitForFunction(() => !/^Server lost/.test(document.getElementById('alarm-head').textContent), null, LONG);
+  await alarmIs(page, 'none');
+  await close();
+  await site.stop();
+});
+
 test('nothing of the page moves when an alarm begins', async () => {
   const site = await start();
   const { page, close } = await open(site.url, { viewport: DESKTOP });

@@ -51,6 +51,10 @@ for (const [width, height, least, people] of [[1440, 900, 640, 1], [1440, 900, 6
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const view = await boxOf(page, '#view');
     assert.ok(view.height >= least, `the view is ${view.height} px high`);
+    const rows = () => page.evaluate(() => document.querySelector('.load-list').clientHeight);
+    await page.locator('.stream summary').click();
+    assert.ok(await rows() >= 110, `beside the table of the stream, ${await rows()} px of loads`);
+    await page.locator('.stream summary').click();
     for (const tab of ['body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'loads']) {
       await chooseTab(page, tab);
       const out = await page.evaluate(() => [...document.querySelectorAll('button, select, input, summary')].filter((part) => {
@@ -58,6 +62,11 @@ for (const [width, height, least, people] of [[1440, 900, 640, 1], [1440, 900, 6
         const scrolls = part.closest('.load-list, .mark-list, .plot-list, .body-map, .control-list');
         return part.checkVisibility() && width > 0 && !scrolls && (left < 0 || right > innerWidth || top < 0 || bottom > innerHeight);
       }).map((part) => part.id || part.textContent));
+      if (tab === 'body') {
+        const [card, hint] = await page.evaluate(() => [Math.max(...[...document.querySelectorAll('.joint-card')]
+          .map((each) => each.getBoundingClientRect().bottom)), document.querySelector('.body-map .hint').getBoundingClientRect().top]);
+        assert.ok(card <= hint, `the last joint ends at ${card} px, the hint begins at ${hint}`);
+      }
       assert.deepEqual(out, [], tab);
     }
     await saveScreenshot(page, `desk_${width}_${people}`);
@@ -163,11 +172,42 @@ test('a long name of a source is cut on a desk, and covers no button', async () 
   await close();
 });
 
+test('a wall shows whole what the lamp and an alarm say, whatever the lamp says', async () => {
+  for (const viewport of [WALL, { width: 1280, height: 720 }, { width: 1440, height: 900 }]) {
+    const { page, close } = await open('?view=wall', 1, { viewport });
+    for (const [word, head] of [['Losing data 20.4 %', '20.4 % of the samples lost'], ['Recording 0:02.7 of 0:12', ''],
+      ['Behind −12.4 s', 'Stream lost for 15.0 s'], ['Disconnected', 'Server lost for 15.0 s'], ['Overloaded', ''], ['Live', '']]) {
+      // In one go: the page writes both again several times a second.
+      const { cut, isSeen } = await page.evaluate(([says, alarm]) => {
+        const line = document.getElementById('alarm');
+        document.getElementById('status-word').textContent = says;
+        document.getElementById('alarm-head').textContent = alarm || 'No alarm';
+        line.dataset.priority = alarm ? 'high' : 'none';
+        const parts = ['status-word', 'alarm-head'].map((id) => document.getElementById(id));
+        const bottom = document.querySelector('main').getBoundingClientRect().top;
+        const isWhole = (part) => {
+          const { right, bottom: low, top } = part.getBoundingClientRect();
+          return (part.scrollWidth <= part.clientWidth + 1 || part.clientWidth === 0) && right <= innerWidth && low <= bottom && top >= 0;
+        };
+        return {
+          cut: parts.filter((part) => part.id !== 'alarm-head' || alarm).filter((part) => !isWhole(part)).map(({ id }) => id),
+          isSeen: isWhole(parts[1]) || line.getBoundingClientRect().top >= document.querySelector('.topbar').getBoundingClientRect().bottom,
+        };
+      }, [word, head]);
+      assert.deepEqual(cut, [], `${word}, ${head} on ${viewport.width} px`);
+      assert.ok(isSeen, `“No alarm” is whole or not there: ${word} on ${viewport.width} px`);
+    }
+    await close();
+  }
+});
+
 test('the wall says in large words that the stream has stopped', async () => {
   const { page, close } = await open('?view=wall', 2, { viewport: WALL });
   site.say('stale');
   await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
   await page.waitForFunction(() => document.querySelector('.person .ratio')?.textContent === '–', null, LONG);
+  assert.deepEqual(await page.$$eval('.joint span', (all) => all.filter((each) => each.scrollWidth > each.clientWidth
+    || each.parentElement.scrollWidth > each.parentElement.clientWidth).map((each) => each.textContent)), []);
   const banner = await boxOf(page, '#banner'), card = await boxOf(page, '.person');
   assert.ok(banner.y + banner.height <= card.y, 'the banner covers no card');
   await saveScreenshot(page, 'wall_stale');

@@ -108,6 +108,34 @@ test('a live mark is of the sample that is drawn, within one', async () => {
   await close();
 });
 
+test('a text marks the sample that was seen when it was begun, however long it takes to write', async () => {
+  const { page, close } = await open(site.url);
+  const seen = Number(await page.textContent('#sample'));
+  await page.keyboard.press('m');
+  await saidIs(page, /^This text marks sample \d+$/);
+  await page.waitForFunction((least) => Number(document.getElementById('sample').textContent) > least, seen + 60, LONG);
+  await page.keyboard.type('belt slipped');
+  const meant = Number(/\d+$/.exec(await page.textContent('#mark-said'))[0]);
+  assert.ok(meant >= seen && meant < seen + 40, `${meant}, seen ${seen}`);
+  await page.keyboard.press('Enter');
+  await saidIs(page, new RegExp(`^Marked: “belt slipped” at sample ${meant}`));
+  assert.equal((await lines()).at(-1).at.counter, meant);
+  // Without M, it is the first letter that counts, and what is given up counts no more.
+  await page.locator('#mark-text').click();
+  await page.keyboard.type('x');
+  await saidIs(page, /^This text marks sample \d+$/);
+  const given = Number(/\d+$/.exec(await page.textContent('#mark-said'))[0]);
+  assert.ok(given > meant);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.inputValue('#mark-text'), '');
+  await page.waitForFunction((least) => Number(document.getElementById('sample').textContent) > least, given + 30, LONG);
+  await page.locator('#mark-text').click();
+  await page.keyboard.type('y');
+  await page.waitForFunction((last) => Number(/\d+$/.exec(document.getElementById('mark-said').textContent)?.[0]) > last, given, LONG);
+  await page.keyboard.press('Escape');
+  await close();
+});
+
 test('a mark of a moment that is gone, or that has not come, is refused in words, and live goes on', async () => {
   const { page, close } = await open(site.url);
   const count = (await lines()).length;

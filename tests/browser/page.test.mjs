@@ -151,12 +151,22 @@ test('the page detects a server that ends or does not respond', async () => {
   const mortal = await startFixture();
   const { page, close } = await openPage(mortal.url);
   await statusIs(page, 'Live');
+  await chooseTab(page, 'body');
+  const mapIs = (isKnown) => page.waitForFunction((known) => {
+    const cards = [...document.querySelectorAll('.joint-card')];
+    return cards.length === 15 && cards.some(({ dataset }) => dataset.class !== 'unknown') === known
+      && cards.some((card) => /\d/.test(card.querySelector('.ratio').textContent)) === known;
+  }, isKnown, LONG);
+  await mapIs(true);
   process.kill(mortal.pid, 'SIGSTOP');
   await statusIs(page, 'Disconnected');
+  await mapIs(false);
   process.kill(mortal.pid, 'SIGCONT');
   await statusIs(page, 'Live');
+  await mapIs(true);
   await mortal.kill();
   await statusIs(page, 'Disconnected');
+  await mapIs(false);
   assert.match(await text(page, '#banner'), /No connection/);
   await close();
 });
