@@ -354,6 +354,8 @@ async function loadMarks(now) {
   const revision = shown.newestDetails.marks_revision;
   elements['mark-pad'].hidden = revision === null;
   if (revision === null) return;
+  const { recording } = shown.newestDetails, { newest } = shown;
+  marks.setAnchor(recording && newest && newest.liveness !== 'no data' ? { recording, ...newest } : null);
   try {
     await markPad.sendWaiting(now);
     await marks.update(revision, now);
@@ -374,7 +376,7 @@ async function loadAlarms(now) {
 
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
-const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
+const flagsOf = (of) => of.list().filter((mark) => of.hasMoment(mark)).map((mark) => ({
   micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark), text: mark.text, isTrial: mark.kind === 'trial',
 }));
 

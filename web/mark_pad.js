@@ -7,6 +7,7 @@ import { placeIn } from './status.js';
 
 const MOST_LISTED = 200;  // the newest ones
 const MOST_BUTTONS = 9;
+const SOON_MILLIS = 100;
 const SAID_MILLIS = 6000;  // that Undo is offered
 
 /** @typedef {import('./messages.js').Mark} Mark
@@ -151,7 +152,7 @@ export class MarkPad {
   #goToNeighbour(by) {
     const at = this.shown.millis;
     if (at === null) return;
-    const others = this.marks.list().filter((mark) => this.marks.isOfThisRun(mark)
+    const others = this.marks.list().filter((mark) => this.marks.hasMoment(mark)
       && Math.sign(mark.at.micros - Math.floor(1000 * at)) === by);
     const next = by > 0 ? others[0] : others.at(-1);
     if (next) this.#goTo(next);
@@ -162,7 +163,8 @@ export class MarkPad {
   #goTo(mark) {
     const kept = this.shown.kept();
     if (kept === null) return;
-    if (!this.marks.isOfThisRun(mark)) return this.notice('This mark is of an earlier start of the server, whose samples are gone');
+    if (!this.marks.hasMoment(mark)) return this.notice('This mark is of an earlier start of the server, whose samples are gone');
+    if (mark.at.micros / 1000 > kept.newest + SOON_MILLIS) return this.notice('The recording has not come to this mark yet');
     if (mark.at.micros / 1000 < kept.oldest) return this.notice('The moment of this mark is no longer kept');
     this.shown.pauseAt((mark.at.micros + 1) / 1000);  // rounded down to µs
   }
@@ -234,7 +236,8 @@ export class MarkPad {
   /** @param {Mark} mark */
   #whenText(mark) {
     const { recording } = this.shown.newestDetails;
-    const at = recording ? place(placeIn(recording, mark.at.stamp_micros)) : timeCode(mark.at.time_code_millis);
+    const at = recording && this.marks.hasMoment(mark) ? place(placeIn(recording, mark.at.stamp_micros))
+      : timeCode(mark.at.time_code_millis);
     const length = mark.end ? ` · ${((mark.end.micros - mark.at.micros) / 1e6).toFixed(1)} s` : mark.is_open ? ' · open' : '';
     return `${at} · sample ${mark.at.counter}${length} · ${mark.role}${seenText(mark)}`;
   }

@@ -1,4 +1,5 @@
 // The marks of the server: what they are, and how they are set, ended and removed.
+import { placedIn } from './recorded_marks.js';
 import { ask, messageOf, NoConnection, request } from './server_api.js';
 import { boolean, listOf, number, object, optional, readMark, readMarks, string } from './messages.js';
 
@@ -7,6 +8,7 @@ import { boolean, listOf, number, object, optional, readMark, readMarks, string 
  *    screen; button: from 1 */
 
 const RETRY_MILLIS = 3000;
+const DRIFT_MICROS = 5000;  // by which the anchor of a recording may differ before marks are placed anew
 const MOST_WAITING = 500;  // that are set while the server is away
 const HEADERS = { 'Content-Type': 'application/json' };
 
@@ -37,6 +39,8 @@ export class Marks {
   /** @type {Mark[]|null} */ #sorted = null;  // null: they have changed
   #revision = -1;  // of what is here; -1: nothing was loaded yet
   #runMicros = 0;  // of the server whose marks are here
+  /** @type {import('./recorded_marks.js').Anchor|null} */ #anchor = null;
+  /** @type {Set<number>} */ #placed = new Set();  // ids of those of earlier runs that are in the recording that is played
   #isLoading = false;
   #retryAt = -Infinity;  // ms; after an error
   /** @type {string[]} */ names = [];  // of the buttons
@@ -59,18 +63,48 @@ export class Marks {
     }
   }
 
-  /** In the order of their moments; those of earlier runs of the server first. Another list after each change.
+  /** In the order of their moments; those of earlier runs of the server first, unless its recording has their moments.
+   *  Another list after each change.
    *  @returns {readonly Mark[]} */
   list() {
-    this.#sorted ??= [...this.#marks.values()]
-      .sort((a, b) => a.run_micros - b.run_micros || a.at.micros - b.at.micros || a.id - b.id);
+    this.#sorted ??= this.#place().sort((a, b) => this.#order(a) - this.#order(b) || a.at.micros - b.at.micros || a.id - b.id);
     return this.#sorted;
   }
 
-  /** Whether the server may still have the moment of the mark: it was set since the server was started.
+  #place() {
+    this.#placed.clear();
+    return [...this.#marks.values()].map((mark) => {
+      const placed = mark.run_micros === this.#runMicros || this.#anchor === null ? null : placedIn(mark, this.#anchor);
+      if (placed) this.#placed.add(mark.id);
+      return placed ?? mark;
+    });
+  }
+
+  /** @param {Mark} mark */
+  #order(mark) {
+    return this.hasMoment(mark) ? this.#runMicros : mark.run_micros;
+  }
+
+  /** The recording that the server plays, and its newest sample; null: the stream is live.
+   *  @param {import('./recorded_marks.js').Anchor|null} anchor */
+  setAnchor(anchor) {
+    const [before, now] = [this.#anchor, anchor].map((each) => each && {
+      delay: each.madeMicros - each.stampMicros, code: each.stampMicros - 1000 * each.timeCodeMillis,
+      length: each.recording.length_secs,
+    });
+    const isSame = before && now ? before.length === now.length && Math.abs(before.code - now.code) < DRIFT_MICROS
+      && now.delay - before.delay > -DRIFT_MICROS && now.delay - before.delay < 20 * DRIFT_MICROS : before === now;
+    if (isSame) return;
+    this.#anchor = anchor;
+    this.#sorted = null;
+    this.changed();
+  }
+
+  /** Whether the server may have the moment of the mark: it was set since the server was started, or in the recording that
+   *  is played.
    *  @param {Mark} mark */
-  isOfThisRun(mark) {
-    return mark.run_micros === this.#runMicros;
+  hasMoment(mark) {
+    return mark.run_micros === this.#runMicros || this.#placed.has(mark.id);
   }
 
   /** The last one that this page has set and that is still there. */
@@ -82,7 +116,7 @@ export class Marks {
   /** The span of this button that has no end yet.
    *  @param {number} button */
   openSpan(button) {
-    return this.list().filter((mark) => mark.is_open && mark.button === button && this.isOfThisRun(mark)).at(-1) ?? null;
+    return this.list().filter((mark) => mark.is_open && mark.button === button && mark.run_micros === this.#runMicros).at(-1) ?? null;
   }
 
   /** Another server may have come to the same revision by other changes. */

@@ -1,9 +1,11 @@
 // Marks: operators set them by key, button and text; each has the sample that was on the screen.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
+import { startLab } from './lab.mjs';
 import { besidesOutage, chooseTab, closeBrowser, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -134,6 +136,35 @@ test('a text marks the sample that was seen when it was begun, however long it t
   await page.waitForFunction((last) => Number(/\d+$/.exec(document.getElementById('mark-said').textContent)?.[0]) > last, given, LONG);
   await page.keyboard.press('Escape');
   await close();
+});
+
+test('marks of a recording are at its samples again when it is served again', async () => {
+  const take = join(folder, 'take.mvnx'), options = { source: take, folder, marks: 'take.jsonl' };
+  execFileSync(process.env.KINESCOPE, ['convert', 'demo:lift', '--seconds', '4', '--out', take], { stdio: 'ignore' });
+  const openEnded = async (url) => {
+    const visit = await openPage(url);
+    await visit.page.waitForFunction(() => document.getElementById('status-note').textContent === 'ended', null, LONG);
+    await visit.page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
+    await chooseTab(visit.page, 'marks');
+    return visit;
+  };
+  const first = await startLab(options);
+  const { page, close } = await openEnded(first.operator);
+  for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction(() => document.body.dataset.time !== 'live', null, LONG);
+  await page.keyboard.press('2');
+  await saidIs(page, /^Marked: “lift” at sample \d+/);
+  const said = await page.textContent('#mark-list li small'), sample = Number(/sample (\d+)/.exec(said)[1]);
+  await close();
+  await first.stop();
+  const second = await startLab(options);
+  const again = await openEnded(second.operator);
+  await again.page.waitForFunction((text) => document.querySelector('#mark-list li small')?.textContent.startsWith(text), said.split(' ·')[0], LONG);
+  await again.page.locator('#mark-list .go').click();
+  await again.page.waitForFunction((wanted) => Number(document.getElementById('sample').textContent) === wanted, sample, LONG);
+  await saveScreenshot(again.page, 'marks_again');
+  await again.close();
+  await second.stop();
 });
 
 test('a mark of a moment that is gone, or that has not come, is refused in words, and live goes on', async () => {
