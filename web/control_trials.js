@@ -113,7 +113,7 @@ export class ControlTrials {
     item.dataset.trial = trial.trial;
     title.textContent = trialTitle(trial);
     const problem = document.createElement('small');
-    problem.textContent = [trial.to_micros === null ? 'not stopped' : place(trial.secs), trial.recording_problem]
+    problem.textContent = [trial.to_micros === null ? 'the server ended before it was stopped' : place(trial.secs), trial.recording_problem]
       .filter(Boolean).join(' · ');
     files.className = 'trial-files';
     for (const [ending, text] of [['mp4', 'clip'], ['html', 'report'], ['pcapng', 'recording']]) {
@@ -125,7 +125,8 @@ export class ControlTrials {
     make.type = 'button';
     make.textContent = isMaking ? 'Making …' : 'Clip and report';
     const isOfThisRun = trial.run_micros === this.#runMicros, isEnded = trial.to_micros !== null;
-    const clip = state.clips.why_not === '' && isEnded && isOfThisRun;
+    // Of the states that are kept, or of the recording.
+    const clip = state.clips.why_not === '' && ((isEnded && isOfThisRun) || trial.has_recording);
     // One of this run that has no end yet has just been stopped: its end comes with the next list.
     make.disabled = isMaking || (isOfThisRun && !isEnded) || (!clip && !trial.has_recording);
     make.addEventListener('click', () => {

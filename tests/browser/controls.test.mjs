@@ -119,6 +119,39 @@ test('a study of 20 trials is run from the page alone', async () => {
   await close();
 });
 
+test('a trial whose server was killed has its recording, and clip and report after the next start', async () => {
+  const options = ['--recordings_folder', recordings];
+  const first = await startLab({ folder, marks: 'crash.jsonl', options }), its = first.stream(['demo:lift', '--rate_hz', '60', '--seconds', '900']);
+  const { page, close } = await openLive(first.operator);
+  await page.fill('#trial-person', 'S20');
+  await page.fill('#trial-condition', 'crash');
+  await page.click('#trial-run');
+  await textIs(page, 'trial-note', /^Runs: S20 · crash · trial 1/);
+  await waitSamples(page, 60);
+  await page.click('#mark-buttons button:nth-child(6)');
+  await waitSamples(page, 120);
+  await first.kill();
+  await its.stop();
+  await close();
+  const second = await startLab({ folder, marks: 'crash.jsonl', options });
+  const again = await openControls(second.operator);
+  const entry = again.page.locator('#trial-list li[data-trial="S20_crash_001"]');
+  await entry.waitFor(LONG);
+  assert.match(await entry.textContent(), /the server ended before it was stopped/);
+  await entry.getByRole('button').click();
+  await again.page.waitForFunction(() => document.querySelectorAll('#trial-list li[data-trial="S20_crash_001"] a').length === 3
+    || document.querySelector('#job-list [data-state="failed"]') !== null, null, LONG);
+  assert.equal(await again.page.locator('#job-list [data-state="failed"]').count(), 0, await again.page.textContent('#job-list'));
+  const recorded = await inspect(join(recordings, 'S20_crash_001.pcapng'));
+  assert.ok(recorded.seconds >= 2.9, `${recorded.seconds} s recorded`);
+  const clip = lengthOfMp4(await readFile(join(recordings, 'S20_crash_001.mp4')));
+  assert.ok(Math.abs(clip - recorded.seconds) < 0.1, `recorded ${recorded.seconds} s, clip of ${clip} s`);
+  assert.match(await readFile(join(recordings, 'S20_crash_001.html'), 'utf8'), /<b>Marks<\/b>.* \d slip \(\d/);
+  await saveScreenshot(again.page, 'trial_after_crash');
+  await again.close();
+  await second.stop();
+});
+
 test('a recording begins with what the stream said before, and a viewer sees it and cannot stop it', async () => {
   const operator = await openLive(), viewer = await openControls(lab.viewer, { viewport: PHONE });
   await operator.page.fill('#recording-label', '../../warm up');

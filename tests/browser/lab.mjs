@@ -44,5 +44,10 @@ export async function startLab({ source = 'udp://127.0.0.1:0', folder, marks = '
       return { stop: () => stop(suit) };
     },
     stop: () => stop(child),
+    /** Without any goodbye, as a crash would. */
+    async kill() {
+      child.kill('SIGKILL');
+      if (child.exitCode === null && child.signalCode === null) await once(child, 'exit');
+    },
   };
 }

@@ -188,15 +188,20 @@ tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder
   return ClipSpan{now.made_nanos - nanos, now.made_nanos};
 }
 
+// "": there is room for a clip.
+std::string ControlDesk::WhyNoRoom() const {
+  const std::string wrong = parts_.folder.Prepare();
+  if (!wrong.empty()) return wrong;
+  const auto free = parts_.folder.free_bytes();
+  if (!free || *free >= recording::RawRecorder::kSpareBytes) return "";
+  return "the disk is full; delete files, or choose another disk with --recordings_folder";
+}
+
 tl::expected<std::uint64_t, std::string> ControlDesk::AddClip(const ClipSpan& span,
                                                               const std::string& camera,
                                                               const std::string& title,
                                                               const std::string& name) {
-  std::string wrong = parts_.folder.Prepare();
-  const auto free = parts_.folder.free_bytes();
-  if (wrong.empty() && free && *free < recording::RawRecorder::kSpareBytes) {
-    wrong = "the disk is full; delete files, or choose another disk with --recordings_folder";
-  }
+  const std::string wrong = WhyNoRoom();
   if (!wrong.empty()) return tl::unexpected(wrong);
   const ClipMakerOrder order = {span, camera, title, parts_.folder.path() / name};
   return workshop_.Add("clip", name, [this, order](Workshop::Progress& progress) {

@@ -21,7 +21,7 @@
 #include "server/app/serve/control_status.h"
 #include "server/app/serve/hand_load_log.h"
 #include "server/app/serve/operator_log.h"
-#include "server/app/serve/report_maker.h"
+#include "server/app/serve/option_texts.h"
 #include "server/app/serve/workshop.h"
 #include "server/history/history.h"
 #include "server/http/controls.h"
@@ -44,6 +44,7 @@ struct DeskParts {
   std::string why_no_clips;                    // of null clips
   std::string camera;                          // of the live picture, at the start
   OptionTexts loads_options;                   // as the server was started
+  OptionTexts clip_options;                    // of clips of recordings
   HandLoad first_hand_load;                    // of all people, as the server was started
 };
 
@@ -80,6 +81,8 @@ class ControlDesk : public http::Controls {
   Result MakeOfTrial(const http::TrialOrder& order);
   std::string AddTrialClip(const recording::Trial& trial);
   std::string AddTrialReport(const recording::Trial& trial);
+  std::string AddRecordedClip(const recording::Trial& trial);
+  std::string WhyNoRoom() const;
   OptionTexts ReportOptionsOf(const recording::Trial& trial) const;
   tl::expected<ClipSpan, http::ControlRefusal> SpanOf(const http::ClipOrder& order) const;
   tl::expected<std::uint64_t, std::string> AddClip(const ClipSpan& span, const std::string& camera,

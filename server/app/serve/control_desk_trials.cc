@@ -10,6 +10,7 @@
 #include "core/system/clocks.h"
 #include "core/system/json_text.h"
 #include "server/app/serve/control_desk.h"
+#include "server/app/serve/report_maker.h"
 
 namespace kinescope::app {
 namespace {
@@ -134,16 +135,39 @@ OptionTexts ControlDesk::ReportOptionsOf(const recording::Trial& trial) const {
 // "" or why not.
 std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
   if (parts_.clips == nullptr) return parts_.why_no_clips;
-  if (!trial.to || trial.run_micros != RunMicros()) {
-    return "this trial is of an earlier start of the server, whose states are gone; render the "
-           "clip from its recording";
-  }
+  if (!trial.to || trial.run_micros != RunMicros()) return AddRecordedClip(trial);
   http::ClipOrder order;
   order.from_micros = trial.from.made_nanos / 1000;
   order.to_micros = trial.to->made_nanos / 1000;
   const auto span = SpanOf(order);
-  if (!span) return span.error().reason;
+  if (!span) {
+    const std::string wrong = AddRecordedClip(trial);
+    return wrong.empty() ? "" : span.error().reason + "; " + wrong;
+  }
   const auto added = AddClip(*span, camera_, TitleOf(trial), trial.stem + ".mp4");
+  return added ? "" : added.error();
+}
+
+// Of one whose states are no longer here, as they are after another start. "" or why not.
+std::string ControlDesk::AddRecordedClip(const recording::Trial& trial) {
+  const auto recording = parts_.folder.Find(trial.stem + recording::RawRecorder::kEnding);
+  if (!recording) return "no clip: there is neither a recording of this trial nor its states";
+  const std::string wrong = WhyNoRoom();
+  if (!wrong.empty()) return wrong;
+  OptionTexts options = ReportOptionsOf(trial);
+  options.insert(options.end(), parts_.clip_options.begin(), parts_.clip_options.end());
+  SetOption(options, "camera", camera_);
+  SetOption(options, "title", TitleOf(trial));
+  const std::string name = trial.stem + ".mp4";
+  const auto added =
+      workshop_.Add("clip", name,
+                    [this, recording = *recording, clip = parts_.folder.path() / name,
+                     options](Workshop::Progress& progress) {
+                      if (parts_.recorder != nullptr) {
+                        parts_.recorder->AwaitSaved(recording.filename().string());
+                      }
+                      MakeRecordedClip(recording, clip, options, progress);
+                    });
   return added ? "" : added.error();
 }
 

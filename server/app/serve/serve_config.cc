@@ -229,7 +229,10 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   config.ghost_opacity = *options.ghost_opacity;
   if (*options.pictures) config.pictures = pictures;
   AddRecordings(options, config);
-  if (config.pictures && config.history) config.clips = ClipsOf(options, config.scene);
+  if (config.pictures && config.history) {
+    config.clips = ClipsOf(options, config.scene);
+    config.clip_options = PictureOptionsOf(config.clips->view, config.clips->backend);
+  }
   if (!config.ros) return config;
   config.ros->markers = *options.marker_topics;
   if (!*options.ros_view) return config;

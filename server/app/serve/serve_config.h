@@ -12,7 +12,7 @@
 #include "server/app/log.h"
 #include "server/app/serve/clip_maker.h"
 #include "server/app/serve/live_pictures.h"
-#include "server/app/serve/report_maker.h"
+#include "server/app/serve/option_texts.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
 #include "server/history/history.h"
@@ -50,6 +50,7 @@ struct ServeConfig {
   std::filesystem::path recordings;   // folder
   bool may_make_recordings = true;    // the folder
   OptionTexts loads_options;          // of the reports
+  OptionTexts clip_options;           // of clips of recordings: as the live picture looks
   // Commands that print the tokens of the page, or "".
   std::string how_to_see_token, how_to_see_viewer_token;
   bool shows_token = false;        // in the log, which is a terminal and no file

@@ -192,7 +192,7 @@ void Server::StartControls(const ServeConfig& config) {
   desk_ = std::make_unique<ControlDesk>(DeskParts{states_, changes_, history_.get(), marks_.get(),
                                                   recordings_, recorder_.get(), why_no_recording,
                                                   clips_.get(), why_no_clips, config.page->camera,
-                                                  config.loads_options, config.scene.loads.hands});
+                                                  config.loads_options, config.clip_options, config.scene.loads.hands});
 }
 
 void Server::StartPage(const ServeConfig& config) {
