@@ -193,8 +193,10 @@ std::string MethodText(const LoadTrial& trial, const TrialContext& context) {
   return text;
 }
 
-std::vector<std::string> TrustNotesOf(const LoadTrial& trial) {
+std::vector<std::string> TrustNotesOf(const LoadTrial& trial, const TrialContext& context) {
   std::vector<std::string> notes;
+  const std::string changes = ChangesText(context.marks);
+  if (!changes.empty()) notes.push_back(changes);
   const double all = trial.secs();
   NoteUnknownJoints(trial, notes);
   NoteReasons("Without accelerations", trial.why_static(), all, notes);

@@ -245,7 +245,7 @@ std::string MethodHtml(const ReportPage& page) {
       "<h2>How far to believe it</h2>{}</td><td><h2>What would change the answer</h2>{}</td></tr>"
       "</table>\n",
       EscapeHtml(MethodText(page.trial, page.context)),
-      NotesHtml(TrustNotesOf(page.trial), LinesForNotes(page)),
+      NotesHtml(TrustNotesOf(page.trial, page.context), LinesForNotes(page)),
       SensitivityTable(page.sensitivity, page.context.scene.loads.meter.up));
 }
 

@@ -4,11 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "core/system/clocks.h"
+#include "core/system/starts_with.h"
 #include "server/table/load_rows.h"
 
 namespace kinescope::app {
+namespace {
+
+// As server/app/serve/control_desk.cc writes what has been changed: not a camera, a name, a
+// recording.
+bool ChangesLoads(const std::string& text) {
+  constexpr std::string_view kOfLoads[] = {"hand load of ", "mass of ", "sex of ", "stature of ",
+                                           "class limits: "};
+  return std::any_of(std::begin(kOfLoads), std::end(kOfLoads),
+                     [&](std::string_view begin) { return StartsWith(text, begin); });
+}
+
+}  // namespace
 
 std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& first,
                                const SceneState& last) {
@@ -20,6 +35,20 @@ std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& 
                      mark.kind == marks::Kind::kChange, mark.button, mark.text, mark.role});
   }
   return found;
+}
+
+std::string ChangesText(const std::vector<TrialMark>& marks) {
+  constexpr std::size_t kMost = 4;
+  std::string changes;
+  std::size_t count = 0;
+  for (const TrialMark& mark : marks) {
+    if (!mark.is_change || !ChangesLoads(mark.text)) continue;
+    if (++count > kMost) continue;
+    changes += fmt::format("{}{} at {}", count == 1 ? "" : ", ", mark.text, TimesText(mark));
+  }
+  if (count == 0) return "";
+  if (count > kMost) changes += fmt::format(" and {} more", count - kMost);
+  return "Computed with what held at the beginning, although this was changed: " + changes + ".";
 }
 
 MarkLoads LoadsAround(const TrialMark& mark, const LoadTrial& trial) {

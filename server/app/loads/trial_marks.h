@@ -26,6 +26,10 @@ struct TrialMark {
 std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& first,
                                const SceneState& last);
 
+/// What was changed during the trial, in one sentence: loads are computed with what held when it
+/// was begun. "" if nothing was, or only how it looked.
+std::string ChangesText(const std::vector<TrialMark>& marks);
+
 /// The loads of one person around a mark: of a moment within marks::kWindowNanos before and after
 /// it, of a span within the span.
 struct MarkLoads {

@@ -47,6 +47,25 @@ TEST(TrialMarks, SayThatNoLoadIsKnown) {
   EXPECT_EQ(LoadsText(LoadsAround(Moment(50), CountedTrial())), "no load known");
 }
 
+TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
+  TrialContext context;
+  EXPECT_EQ(ChangesText(context.marks), "");
+  for (const char* text :
+       {"camera of the server picture: front → left", "grasp",
+        "hand load of Demo: unknown → right 7 kg", "recording: off → a.pcapng"}) {
+    context.marks.push_back(Moment(1.5 * static_cast<double>(context.marks.size())));
+    context.marks.back().text = text;
+    context.marks.back().is_change = context.marks.back().text != "grasp";
+  }
+  const std::string expected =
+      "Computed with what held at the beginning, although this was changed: hand load of Demo: "
+      "unknown → right 7 kg at 3.00 s.";
+  EXPECT_EQ(ChangesText(context.marks), expected);
+  EXPECT_EQ(NotesOf(CountedTrial(), context).front(), expected);
+  context.marks.assign(9, context.marks[2]);
+  EXPECT_THAT(ChangesText(context.marks), ::testing::EndsWith(" and 5 more."));
+}
+
 // A key that was held down all day.
 TEST(TrialMarks, AreShortInTextsHoweverManyThereAre) {
   const LoadTrial trial = CountedTrial();
