@@ -219,6 +219,9 @@ test('the person, the hand loads and the class limits are changed for all, and e
   await textIs(page, 'person-note', /Name set by an operator · mass set by an operator · sex set by an operator/);
   await other.page.waitForFunction(() => document.getElementById('person-mass').value === '82.5'
     && document.getElementById('person-name').value === '<b>Ann</b>', null, LONG);
+  await page.fill('#person-height', '1.90');
+  await page.click('#person-form button');
+  await textIs(page, 'person-note', /stature as stated; the lengths .* give \d\.\d\d m$/);
   await page.fill('#hands-both', '10');
   await page.click('#hands-form button');
   await textIs(page, 'hands-note', /^Held now: 10 kg in both hands, since \d\d:\d\d:\d\d \(operator\)/);
@@ -226,6 +229,10 @@ test('the person, the hand loads and the class limits are changed for all, and e
   await page.fill('#hands-right', '5');
   await page.click('#hands-form button');
   await textIs(other.page, 'hands-note', /^Held now: 5 kg right, since/);
+  await page.fill('#hands-right', '0');
+  await page.fill('#hands-left', '3');
+  await page.click('#hands-form button');
+  await textIs(other.page, 'hands-note', /^Held now: 3 kg left, since/);
   await page.fill('#limits-medium', '12.5');
   await page.fill('#limits-high', '40');
   await page.click('#limits-form button');

@@ -237,6 +237,11 @@ test('spans, free text, undo, and a list in which a click shows the moment', asy
   await page.keyboard.press('Control+z');
   await saidIs(page, /^Removed: “release”/);
   await entriesAre(page, ['<b>belt</b> slipped 1', 'step', ...earlier]);
+  await page.keyboard.press('3');
+  await saidIs(page, /^Marked: “place”/);
+  await page.click('#mark-undo');
+  await saidIs(page, /^Removed: “place”/);
+  await entriesAre(page, ['<b>belt</b> slipped 1', 'step', ...earlier]);
   const marked = (await lines()).find(({ text }) => text.includes('belt'));
   await page.click('#mark-list li:first-child .go');
   await page.waitForFunction((n) => document.getElementById('sample').textContent === String(n), marked.at.counter, LONG);

@@ -401,6 +401,18 @@ TEST(WebSocket, ReportsInvalidMessagesAndContinues) {
   EXPECT_EQ(site.HttpCounters()["rejected"]["bad message"], 2);
 }
 
+TEST(WebSocket, ClosesAfterTextThatIsNoUtf8) {
+  TestServer site;
+  for (const char* text : {"\xFF\xFE", "{\"camera\": \"\xC3\x28\"}", "\xED\xA0\x80", "\xF0\x9F"}) {
+    WsClient client(site.server.port());
+    client.Send(text);
+    EXPECT_TRUE(client.WaitForClose()) << text;
+  }
+  WsClient other(site.server.port());
+  other.Send(R"({"ping": 1})");
+  other.ReceiveText("pong");
+}
+
 TEST(WebSocket, ClosesAfterTooLargeOrTooManyMessages) {
   TestServer site;
   WsClient large(site.server.port());
