@@ -116,11 +116,11 @@ test('a text marks the sample that was seen when it was begun, however long it t
   await page.keyboard.press('m');
   await saidIs(page, /^This text marks sample \d+$/);
   await page.waitForFunction((least) => Number(document.getElementById('sample').textContent) > least, seen + 60, LONG);
-  await page.keyboard.type('belt slipped');
+  await page.keyboard.type('rope slipped');
   const meant = Number(/\d+$/.exec(await page.textContent('#mark-said'))[0]);
   assert.ok(meant >= seen && meant < seen + 40, `${meant}, seen ${seen}`);
   await page.keyboard.press('Enter');
-  await saidIs(page, new RegExp(`^Marked: “belt slipped” at sample ${meant}`));
+  await saidIs(page, new RegExp(`^Marked: “rope slipped” at sample ${meant}`));
   assert.equal((await lines()).at(-1).at.counter, meant);
   // Without M, it is the first letter that counts, and what is given up counts no more.
   await page.locator('#mark-text').click();
