@@ -244,7 +244,8 @@ test('the person, the hand loads and the class limits are changed for all, and e
   await chooseTab(page, 'picture');
   await page.selectOption('#picture-camera', 'top');
   const wanted = ['mass of Demo: 75 kg → 82.5 kg', 'sex of Demo: male → female', 'name of person 0: Demo → <b>Ann</b>',
-    'hand load of <b>Ann</b>: unknown → 10 kg in both', 'hand load of <b>Ann</b>: 10 kg in both → 5 kg right',
+    'stature of <b>Ann</b>: 1.75 m → 1.9 m', 'hand load of <b>Ann</b>: unknown → 10 kg in both',
+    'hand load of <b>Ann</b>: 10 kg in both → 5 kg right', 'hand load of <b>Ann</b>: 5 kg right → 3 kg left',
     'class limits: 30 % and 60 % → 12.5 % and 40 %', 'camera of the server picture: three_quarter → top'];
   await page.waitForFunction(async (count) => (await (await fetch('api/v1/marks')).json()).marks
     .filter(({ kind, text }) => kind === 'change' && !text.startsWith('recording')).length === count, wanted.length, LONG);
