@@ -16,7 +16,8 @@ std::vector<Fact> HeadFactsOf(const LoadTrial& trial, const TrialContext& contex
 /// One paragraph.
 std::string MethodText(const LoadTrial& trial, const TrialContext& context);
 
-/// Most important first: what was changed meanwhile, unknown loads, deviations from the options, checks, limits of the method.
+/// Most important first: what was changed meanwhile, unknown loads, deviations from the options,
+/// checks, limits of the method.
 std::vector<std::string> TrustNotesOf(const LoadTrial& trial, const TrialContext& context);
 
 }  // namespace kinescope::app

@@ -189,10 +189,10 @@ void Server::StartControls(const ServeConfig& config) {
           ? ""
           : config.source_url + ": only a live stream over UDP or TCP can be recorded (--source)";
   const std::string why_no_clips = clips_ ? "" : history_ ? http::kNoRenderer : http::kNoHistory;
-  desk_ = std::make_unique<ControlDesk>(DeskParts{states_, changes_, history_.get(), marks_.get(),
-                                                  recordings_, recorder_.get(), why_no_recording,
-                                                  clips_.get(), why_no_clips, config.page->camera,
-                                                  config.loads_options, config.clip_options, config.scene.loads.hands});
+  desk_ = std::make_unique<ControlDesk>(
+      DeskParts{states_, changes_, history_.get(), marks_.get(), recordings_, recorder_.get(),
+                why_no_recording, clips_.get(), why_no_clips, config.page->camera,
+                config.loads_options, config.clip_options, config.scene.loads.hands});
 }
 
 void Server::StartPage(const ServeConfig& config) {
