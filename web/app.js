@@ -354,8 +354,7 @@ async function loadMarks(now) {
   const revision = shown.newestDetails.marks_revision;
   elements['mark-pad'].hidden = revision === null;
   if (revision === null) return;
-  const { recording } = shown.newestDetails, { newest } = shown;
-  marks.setAnchor(recording && newest && newest.liveness !== 'no data' ? { recording, ...newest } : null);
+  marks.setPlayed(shown.newestDetails.recording, shown.newest);
   try {
     await markPad.sendWaiting(now);
     await marks.update(revision, now);

@@ -85,9 +85,18 @@ export class Marks {
     return this.hasMoment(mark) ? this.#runMicros : mark.run_micros;
   }
 
-  /** The recording that the server plays, and its newest sample; null: the stream is live.
-   *  @param {import('./recorded_marks.js').Anchor|null} anchor */
-  setAnchor(anchor) {
+  /** The recording that the server plays, and its newest state; null: the stream is live.
+   *  @param {import('./messages.js').Recording|null} recording
+   *  @param {import('./state_codec.js').State|null} newest */
+  setPlayed(recording, newest) {
+    if (recording === null) this.#setAnchor(null);
+    else if (newest?.liveness === 'live') this.#setAnchor({ recording, ...newest });
+    // The state that says that it is over is made later than its last sample was played.
+    else if (newest && recording.ended_micros !== null) this.#setAnchor({ recording, ...newest, madeMicros: recording.ended_micros });
+  }
+
+  /** @param {import('./recorded_marks.js').Anchor|null} anchor */
+  #setAnchor(anchor) {
     const [before, now] = [this.#anchor, anchor].map((each) => each && {
       delay: each.madeMicros - each.stampMicros, code: each.stampMicros - 1000 * each.timeCodeMillis,
       length: each.recording.length_secs,

@@ -3,6 +3,7 @@
 import { placeIn } from './status.js';
 
 const TOLERANCE_SECS = 0.02;
+const FASTEST_HZ = 240;  // of suits
 
 /** @typedef {import('./messages.js').Mark} Mark
  *  @typedef {{recording: import('./messages.js').Recording, stampMicros: number, madeMicros: number, timeCodeMillis: number,
@@ -19,7 +20,7 @@ function momentIn(at, { recording, stampMicros, madeMicros, timeCodeMillis, rate
   if (place < -TOLERANCE_SECS || place > (recording.length_secs ?? Infinity) + TOLERANCE_SECS) return null;
   let secs = place - placeOfAnchor;
   if (secs > TOLERANCE_SECS && recording.round_secs) secs -= recording.round_secs;  // of the round before
-  const half = rateHz > 0 ? 0.5e6 / rateHz : 0;  // samples do not become states at even times
+  const half = 0.5e6 / (rateHz > 0 ? rateHz : FASTEST_HZ);  // samples do not become states at even times
   return { ...at, stamp_micros: Math.round(stampMicros + 1e6 * secs), micros: Math.round(madeMicros + 1e6 * secs + half) };
 }
 

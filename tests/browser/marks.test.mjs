@@ -150,11 +150,15 @@ test('marks of a recording are at its samples again when it is served again', as
   };
   const first = await startLab(options);
   const { page, close } = await openEnded(first.operator);
-  for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowLeft');
-  await page.waitForFunction(() => document.body.dataset.time !== 'live', null, LONG);
+  const last = Number(await page.textContent('#sample'));
+  for (let i = 1; i <= 12; ++i) {
+    await page.click('#step-back');
+    await page.waitForFunction((wanted) => Number(document.getElementById('sample').textContent) === wanted, last - i, LONG);
+  }
   await page.keyboard.press('2');
   await saidIs(page, /^Marked: “lift” at sample \d+/);
   const said = await page.textContent('#mark-list li small'), sample = Number(/sample (\d+)/.exec(said)[1]);
+  assert.equal(sample, last - 12);
   await close();
   await first.stop();
   const second = await startLab(options);
