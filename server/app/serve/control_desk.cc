@@ -190,7 +190,7 @@ tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder
 
 // "": there is room for a clip.
 std::string ControlDesk::WhyNoRoom() const {
-  const std::string wrong = parts_.folder.Prepare();
+  std::string wrong = parts_.folder.Prepare();
   if (!wrong.empty()) return wrong;
   const auto free = parts_.folder.free_bytes();
   if (!free || *free >= recording::RawRecorder::kSpareBytes) return "";

@@ -152,7 +152,7 @@ std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
 std::string ControlDesk::AddRecordedClip(const recording::Trial& trial) {
   const auto recording = parts_.folder.Find(trial.stem + recording::RawRecorder::kEnding);
   if (!recording) return "no clip: there is neither a recording of this trial nor its states";
-  const std::string wrong = WhyNoRoom();
+  std::string wrong = WhyNoRoom();
   if (!wrong.empty()) return wrong;
   OptionTexts options = ReportOptionsOf(trial);
   options.insert(options.end(), parts_.clip_options.begin(), parts_.clip_options.end());
