@@ -43,7 +43,7 @@ const hasGeometry = (part) => part instanceof THREE.Mesh || part instanceof THRE
 export class Human {
   group = new THREE.Group();
   /** @type {string[]} */ failedMeshes = [];
-  #loading = 0;  // meshes and skins under way
+  #loading = 0;  // meshes under way
   #skin = /** @type {SkinLevels|null} */ (null);
   #look;
   #last = /** @type {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}|null} */ (null);
@@ -129,7 +129,7 @@ export class Human {
 
   /** Whether nothing of the body is still to be loaded. */
   get isComplete() {
-    return this.#loading === 0;
+    return this.#loading === 0 && (this.#skin?.isComplete ?? true);
   }
 
   get hasSkin() {
@@ -169,7 +169,6 @@ export class Human {
       onFail,
       onLoad: () => {
         if (this.#last) {
-          this.#updateSkin(this.#last);
           this.#updateSpheres(this.#last.person, this.#last.isLive);
           this.#hide();
         }

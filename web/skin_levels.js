@@ -18,6 +18,7 @@ export class SkinLevels {
   #isCoarse = false;
   #isCoarseWanted = false;
   #last = /** @type {Shown|null} */ (null);
+  #loading = 0;
   #isDisposed = false;
   #url;
   #make;
@@ -37,19 +38,32 @@ export class SkinLevels {
   /** @param {string} url
    *  @param {(body: SkinnedBody) => void} take */
   async #load(url, take) {
+    ++this.#loading;
+    const body = await this.#bodyOf(url);
+    --this.#loading;
+    if (this.#isDisposed) return;
+    if (body === null) return this.#events.onFail(url);
+    take(body);
+    this.group.add(body.group);
+    this.#show();
+    this.#events.onLoad();
+  }
+
+  /** @param {string} url
+   *  @returns {Promise<SkinnedBody|null>}  null: it cannot be loaded, or is no longer needed */
+  async #bodyOf(url) {
     try {
       const answer = await request(url.slice(1));
       const skin = readSkin(await answer.arrayBuffer(), url);
-      if (this.#isDisposed) return;
-      const body = this.#make(skin);
-      body.group.visible = false;
-      take(body);
-      this.group.add(body.group);
-      this.#choose();
-      this.#events.onLoad();
+      return this.#isDisposed ? null : this.#make(skin);
     } catch {
-      this.#events.onFail(url);
+      return null;
     }
+  }
+
+  /** Whether nothing is under way. */
+  get isComplete() {
+    return this.#loading === 0;
   }
 
   get isLoaded() {
@@ -63,7 +77,7 @@ export class SkinLevels {
       this.#load(`${this.#url}?error_mm=${COARSE_ERROR_MM}`, (body) => { this.#coarse = body; });
     }
     this.#isCoarse = isCoarse;
-    this.#choose();
+    this.#show();
   }
 
   /** Borders of load classes may be anywhere, and would be ragged on large triangles. */
@@ -71,25 +85,19 @@ export class SkinLevels {
     return this.#isCoarse && this.#coarse !== null && (this.#last?.loads ?? null) === null ? this.#coarse : this.#whole;
   }
 
-  #choose() {
+  #show() {
     const shown = this.#shown;
-    if (shown === null || shown.group.visible) return;
     for (const body of this.#bodies) body.group.visible = body === shown;
-    this.#put();
-  }
-
-  #put() {
-    if (this.#last === null) return;
+    if (shown === null || this.#last === null) return;
     const { links, floor, color, share, loads } = this.#last;
-    this.#shown?.update(links, floor, color, share);
-    this.#shown?.showLoads(loads);
+    shown.update(links, floor, color, share);
+    shown.showLoads(loads);
   }
 
   /** @param {Shown} shown */
   update(shown) {
     this.#last = shown;
-    this.#choose();
-    this.#put();
+    this.#show();
   }
 
   get #bodies() {

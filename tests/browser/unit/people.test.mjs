@@ -131,3 +131,26 @@ test('hidden parts of a person are not drawn, and the others are', () => {
     assert.ok(!differ.includes(true));
   }
 });
+
+test('people are complete when their skins are loaded or cannot be, the one of fewer triangles too', async () => {
+  const asked = [];
+  globalThis.fetch = (route) => new Promise((resolve) => { asked.push({ route, refuse: () => resolve(new Response('', { status: 404 })) }); });
+  let changed = () => {};
+  const people = new People(() => changed());
+  const refuse = (at) => new Promise((done) => {
+    changed = () => done(undefined);
+    asked[at].refuse();
+  });
+  people.setModels([{ ...modelOf(0), skin: '/api/v1/skin/0/1' }], palette, makeMarkerMaterials(palette));
+  assert.equal(people.isComplete, false);
+  await refuse(0);
+  assert.equal(people.isComplete, true);
+  people.setCoarse(true);
+  assert.equal(people.isComplete, false);
+  await refuse(1);
+  assert.equal(people.isComplete, true);
+  people.setCoarse(false);
+  people.setCoarse(true);
+  assert.deepEqual(asked.map(({ route }) => route), ['api/v1/skin/0/1', 'api/v1/skin/0/1?error_mm=3']);
+  assert.deepEqual(people.failedMeshes, ['/api/v1/skin/0/1', '/api/v1/skin/0/1?error_mm=3']);
+});
