@@ -7,7 +7,7 @@ import { placeIn } from './status.js';
 
 const MOST_LISTED = 200;  // the newest ones
 const MOST_BUTTONS = 9;
-const SOON_MILLIS = 100;
+const SOON_MILLIS = 100;  // a mark may be so much later than the newest sample is said to be
 const SAID_MILLIS = 6000;  // that Undo is offered
 
 /** @typedef {import('./messages.js').Mark} Mark
@@ -37,8 +37,7 @@ export class MarkPad {
       event.preventDefault();
       const text = parts.text.value.trim();
       if (text === '') return;
-      const meant = this.#meant;
-      this.#tell((state) => this.marks.add({ state: meant?.state ?? state, text })).then((isKept) => {
+      this.#mark({ text, ...this.#meant && { state: this.#meant.state } }).then((isKept) => {
         if (!isKept) return;
         parts.text.value = '';
         this.#meant = null;
@@ -86,7 +85,7 @@ export class MarkPad {
     return open ? this.#tell((state) => this.marks.end(open, state)) : this.#mark({ button, is_span: isSpan });
   }
 
-  /** @param {{button?: number, text?: string, is_span?: boolean}} what */
+  /** @param {{button?: number, text?: string, is_span?: boolean, state?: number}} what  state: not that on the screen */
   #mark(what) {
     return this.#tell((state) => this.marks.add({ state, ...what }));
   }

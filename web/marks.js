@@ -1,5 +1,5 @@
 // The marks of the server: what they are, and how they are set, ended and removed.
-import { placedIn } from './recorded_marks.js';
+import { areAlike, placedIn } from './recorded_marks.js';
 import { ask, messageOf, NoConnection, request } from './server_api.js';
 import { boolean, listOf, number, object, optional, readMark, readMarks, string } from './messages.js';
 
@@ -8,7 +8,6 @@ import { boolean, listOf, number, object, optional, readMark, readMarks, string 
  *    screen; button: from 1 */
 
 const RETRY_MILLIS = 3000;
-const DRIFT_MICROS = 5000;  // by which the anchor of a recording may differ before marks are placed anew
 const MOST_WAITING = 500;  // that are set while the server is away
 const HEADERS = { 'Content-Type': 'application/json' };
 
@@ -97,13 +96,7 @@ export class Marks {
 
   /** @param {import('./recorded_marks.js').Anchor|null} anchor */
   #setAnchor(anchor) {
-    const [before, now] = [this.#anchor, anchor].map((each) => each && {
-      delay: each.madeMicros - each.stampMicros, code: each.stampMicros - 1000 * each.timeCodeMillis,
-      length: each.recording.length_secs,
-    });
-    const isSame = before && now ? before.length === now.length && Math.abs(before.code - now.code) < DRIFT_MICROS
-      && now.delay - before.delay > -DRIFT_MICROS && now.delay - before.delay < 20 * DRIFT_MICROS : before === now;
-    if (isSame) return;
+    if (areAlike(this.#anchor, anchor)) return;
     this.#anchor = anchor;
     this.#sorted = null;
     this.changed();

@@ -143,7 +143,7 @@ export class PersonCards {
   /** @type {Map<number, Card>} */ #cards = new Map();
   /** @type {Map<number, string>} */ #highest = new Map();  // key of the row, by person
   #order = '';
-  #chosen = -1;
+  #chosen = /** @type {number|undefined} */ (undefined);
 
   /** @param {HTMLElement} list
    *  @param {((character: number) => void)|null} choose  null: cards are no controls
@@ -164,7 +164,7 @@ export class PersonCards {
    *  @returns {boolean}  whether the numbers of the chosen person have been written, or another one has been chosen */
   show(state, names, rows, chosen, now) {
     let isWritten = chosen !== this.#chosen;
-    this.#chosen = chosen ?? -1;
+    this.#chosen = chosen;
     const people = state.people.map((person) => {
       const name = names.find(({ character }) => character === person.character)?.name ?? '';
       const its = rows.filter(({ key }) => key.startsWith(`${person.character}/`));

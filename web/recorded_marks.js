@@ -4,6 +4,7 @@ import { placeIn } from './status.js';
 
 const TOLERANCE_SECS = 0.02;
 const FASTEST_HZ = 240;  // of suits
+const DRIFT_MICROS = 5000, MOST_LATE_MICROS = 100_000;
 
 /** @typedef {import('./messages.js').Mark} Mark
  *  @typedef {{recording: import('./messages.js').Recording, stampMicros: number, madeMicros: number, timeCodeMillis: number,
@@ -31,4 +32,16 @@ function momentIn(at, { recording, stampMicros, madeMicros, timeCodeMillis, rate
 export function placedIn(mark, anchor) {
   const at = momentIn(mark.at, anchor), end = mark.end && momentIn(mark.end, anchor);
   return at === null || (mark.end !== null && end === null) ? null : { ...mark, at, end };
+}
+
+/** Whether marks have about the same places by both. States are made late, never early: by the least delay, places are best.
+ *  @param {Anchor|null} before
+ *  @param {Anchor|null} now */
+export function areAlike(before, now) {
+  if (before === null || now === null) return before === now;
+  const delayOf = (/** @type {Anchor} */ { madeMicros, stampMicros }) => madeMicros - stampMicros;
+  const codeOf = (/** @type {Anchor} */ { stampMicros, timeCodeMillis }) => stampMicros - 1000 * timeCodeMillis;
+  const later = delayOf(now) - delayOf(before);
+  return before.recording.length_secs === now.recording.length_secs && Math.abs(codeOf(now) - codeOf(before)) < DRIFT_MICROS
+    && later > -DRIFT_MICROS && later < MOST_LATE_MICROS;
 }

@@ -2,13 +2,12 @@
 
 #include <vtkActor.h>
 
-#include <algorithm>
-
 #include "core/palette.h"
 #include "core/skin_inputs.h"
 #include "render/shape/coarser_mesh.h"
 #include "render/shape/coarser_skin.h"
 #include "urdf/skin/load_regions.h"
+#include "urdf/skin/outfit.h"
 
 namespace kinescope::render {
 namespace {

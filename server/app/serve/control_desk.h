@@ -82,6 +82,11 @@ class ControlDesk : public http::Controls {
   std::string AddTrialClip(const recording::Trial& trial);
   std::string AddTrialReport(const recording::Trial& trial);
   std::string AddRecordedClip(const recording::Trial& trial);
+  using MakeOfRecording = void (*)(const std::filesystem::path& recording,
+                                   const std::filesystem::path& made, const OptionTexts& options,
+                                   const Workshop::Progress& progress);
+  std::string AddOfRecording(const std::string& kind, const std::filesystem::path& from,
+                             const std::string& name, OptionTexts options, MakeOfRecording make);
   std::string WhyNoRoom() const;
   OptionTexts ReportOptionsOf(const recording::Trial& trial) const;
   tl::expected<ClipSpan, http::ControlRefusal> SpanOf(const http::ClipOrder& order) const;

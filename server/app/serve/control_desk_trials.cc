@@ -158,17 +158,8 @@ std::string ControlDesk::AddRecordedClip(const recording::Trial& trial) {
   options.insert(options.end(), parts_.clip_options.begin(), parts_.clip_options.end());
   SetOption(options, "camera", camera_);
   SetOption(options, "title", TitleOf(trial));
-  const std::string name = trial.stem + ".mp4";
-  const auto added =
-      workshop_.Add("clip", name,
-                    [this, recording = *recording, clip = parts_.folder.path() / name,
-                     options](Workshop::Progress& progress) {
-                      if (parts_.recorder != nullptr) {
-                        parts_.recorder->AwaitSaved(recording.filename().string());
-                      }
-                      MakeRecordedClip(recording, clip, options, progress);
-                    });
-  return added ? "" : added.error();
+  return AddOfRecording("clip", *recording, trial.stem + ".mp4", std::move(options),
+                        MakeRecordedClip);
 }
 
 std::string ControlDesk::AddTrialReport(const recording::Trial& trial) {
@@ -177,14 +168,21 @@ std::string ControlDesk::AddTrialReport(const recording::Trial& trial) {
     return "no report: there is no recording of this trial" +
            (trial.recording_problem.empty() ? std::string() : "; " + trial.recording_problem);
   }
-  const std::string name = trial.stem + ".html";
+  return AddOfRecording("report", *recording, trial.stem + ".html", ReportOptionsOf(trial),
+                        MakeReport);
+}
+
+// What another command of this program makes of a recording. "" or why not.
+std::string ControlDesk::AddOfRecording(const std::string& kind, const std::filesystem::path& from,
+                                        const std::string& name, OptionTexts options,
+                                        MakeOfRecording make) {
   const auto added =
-      workshop_.Add("report", name,
-                    [this, recording = *recording, report = parts_.folder.path() / name,
-                     options = ReportOptionsOf(trial)](Workshop::Progress& progress) {
+      workshop_.Add(kind, name,
+                    [this, from, to = parts_.folder.path() / name, options = std::move(options),
+                     make](Workshop::Progress& progress) {
                       if (parts_.recorder != nullptr)
-                        parts_.recorder->AwaitSaved(recording.filename().string());
-                      MakeReport(recording, report, options, progress);
+                        parts_.recorder->AwaitSaved(from.filename().string());
+                      make(from, to, options, progress);
                     });
   return added ? "" : added.error();
 }
