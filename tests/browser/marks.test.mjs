@@ -38,8 +38,16 @@ async function open(url, options) {
   return visit;
 }
 const lines = async () => (await readFile(file, 'utf8')).trim().split('\n').map((line) => JSON.parse(line));
-const saidIs = (page, pattern) => page.waitForFunction(
-  (source) => new RegExp(source).test(document.getElementById('mark-said').textContent), pattern.source, LONG);
+const textOf = (page, id) => page.evaluate((which) => document.getElementById(which).textContent, id);
+async function saidIs(page, pattern) {
+  try {
+    await page.waitForFunction(
+      (source) => new RegExp(source).test(document.getElementById('mark-said').textContent), pattern.source, LONG);
+  } catch (cause) {
+    const [said, banner, status] = [await textOf(page, 'mark-said'), await textOf(page, 'banner'), await textOf(page, 'status-word')];
+    throw new Error(`expected ${pattern}; the page says “${said}”, its banner “${banner}”, its lamp ${status}`, { cause });
+  }
+}
 const entries = (page) => page.$$eval('#mark-list .go', (all) => all.map((each) => each.querySelector('span').textContent));
 const entriesAre = (page, texts) => page.waitForFunction((wanted) => JSON.stringify(
   [...document.querySelectorAll('#mark-list .go span')].map((each) => each.textContent)) === wanted, JSON.stringify(texts), LONG);
