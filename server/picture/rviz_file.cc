@@ -38,6 +38,24 @@ std::string Shown(const std::string& text) {
   return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
 }
 
+// Of displays whose topic has messages that are shown as markers (server/ros/shown_messages.h).
+constexpr const char* kTopicDisplays[] = {"rviz/PointStamped", "rviz/Pose",      "rviz/PoseArray",
+                                          "rviz/Path",         "rviz/LaserScan", "rviz/PointCloud2",
+                                          "rviz/WrenchStamped"};
+
+bool IsTopicDisplay(const std::string& kind) {
+  return std::find(std::begin(kTopicDisplays), std::end(kTopicDisplays), kind) !=
+         std::end(kTopicDisplays);
+}
+
+bool IsTopicName(const std::string& name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !name.empty() && (name[0] == '/' || is_letter(name[0])) &&
+         name.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_/") ==
+             std::string::npos;
+}
+
 std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
 
 class RvizReader {
@@ -127,6 +145,9 @@ class RvizReader {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
+      ReadTopic(display, called, "Marker Topic", true);
+    } else if (IsTopicDisplay(kind)) {
+      ReadTopic(display, called, "Topic", false);
     } else if (kind == "rviz/TF") {
       has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
       if (BoolOf(display, "Show Names", true) || BoolOf(display, "Show Arrows", true)) {
@@ -149,6 +170,18 @@ class RvizReader {
     has_model_ = true;
     if (rviz::NumberOf(display, "Alpha", 1, 0, 1) < 1) {
       Remark(display, called + ": Alpha is not taken, bodies are opaque");
+    }
+  }
+
+  void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,
+                 bool is_marker) {
+    const std::string name = TextOf(display, member, "");
+    if (IsTopicName(name)) {
+      picture_.topics.push_back({name, Shown(called), is_marker, LineOf(display)});
+    } else if (!is_marker) {
+      const std::string why =
+          name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
+      Remark(display, called + " is not drawn: " + why);
     }
   }
 

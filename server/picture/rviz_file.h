@@ -14,6 +14,14 @@ struct RvizPicture {
     int line = 1;  // of the file
   };
   std::vector<Setting> settings;  // each option at most once
+  /// Of a display that is on and of a kind that `serve` can show from its topic.
+  struct Topic {
+    std::string name;     // as it was saved, such as "/goal"
+    std::string display;  // "rviz/Pose 'Goal'"
+    bool is_marker = false;
+    int line = 1;
+  };
+  std::vector<Topic> topics;
   std::vector<std::string>
       remarks;  // "FILE:LINE: what": what RViz draws and we do not, or otherwise
 };

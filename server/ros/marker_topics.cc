@@ -9,6 +9,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "server/ros/markers.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -67,20 +68,42 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     for (const auto& marker : array_.markers) Take(topic, marker, monotonic_nanos);
     return;
   }
+  if (const ToMarkersOfBytes to_markers = FindShownMessage(sum)) {
+    return TakeShown(topic, to_markers(raw.bytes), monotonic_nanos);
+  }
   Refuse(topic, {"another type",
-                 fmt::format("message type {}: expected visualization_msgs/Marker or MarkerArray",
-                             said("type").substr(0, kLongestMarkerType))});
+                 fmt::format("message type {}: expected visualization_msgs/Marker, "
+                             "visualization_msgs/MarkerArray, {}",
+                             said("type").substr(0, kLongestMarkerType), NamesOfShownMessages())});
 }
 
-void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
-                       std::int64_t monotonic_nanos) {
-  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos)) {
-    return Refuse(topic, *refusal);
+void MarkerInbox::TakeShown(std::size_t topic, const Taken<ShownMarkers>& markers,
+                            std::int64_t monotonic_nanos) {
+  if (!markers) return Refuse(topic, markers.error());
+  for (const visualization_msgs::Marker& marker : *markers) {
+    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos)) {
+      return Refuse(topic, *refusal);
+    }
   }
+  CountUsed(topic);
+}
+
+void MarkerInbox::CountUsed(std::size_t topic) {
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topics_[topic]];
   ++counters.received;
   ++counters.used;
+}
+
+void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
+                       std::int64_t monotonic_nanos) {
+  if (IsOwnMarkerNamespace(message.ns)) {
+    return Refuse(topic, {"of Kinescope", "markers of Kinescope: the scene has them already"});
+  }
+  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos)) {
+    return Refuse(topic, *refusal);
+  }
+  CountUsed(topic);
 }
 
 void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {

@@ -1,6 +1,6 @@
 /// Subscribes to the topics of external markers, counts their messages and passes the resulting
-/// markers on. visualization_msgs/Marker and MarkerArray are distinguished by the type that each
-/// connection states.
+/// markers on: of visualization_msgs/Marker and MarkerArray, and of messages that are shown as
+/// markers (shown_messages.h). The type is the one that each connection states.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -21,6 +21,7 @@
 #include "server/ros/force_frames.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/shown_messages.h"
 
 namespace kinescope::ros_bridge {
 
@@ -55,6 +56,9 @@ class MarkerInbox {
 
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
+  void TakeShown(std::size_t topic, const Taken<ShownMarkers>& markers,
+                 std::int64_t monotonic_nanos);
+  void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
 

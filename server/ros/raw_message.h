@@ -67,6 +67,14 @@ class BoundedStream : public ros::serialization::Stream {
     ros::serialization::Serializer<T>::read(*this, value);
   }
 
+  template <class Allocator>
+  void next(std::vector<std::uint8_t, Allocator>& bytes) {
+    std::uint32_t count = 0;
+    next(count);
+    const std::uint8_t* const first = advance(count);
+    bytes.assign(first, first + count);
+  }
+
   template <class T, std::size_t size>
   void next(boost::array<T, size>& values) {
     for (T& value : values) next(value);

@@ -458,6 +458,38 @@ void WriteMarkers(const fs::path& folder) {
   const std::string one = RosBytes('\0').Marker(1, 4, 3).bytes();
   Write(folder / "marker", one);
   Write(folder / "marker_cut", one.substr(0, one.size() - 30));
+  Write(folder / "point", RosBytes('\6').Header("cart").Reals<double>({1, 2, 3}).bytes());
+  Write(folder / "pose",
+        RosBytes('\7').Header("cart").Reals<double>({1, 2, 3, 0, 0, 0, 1}).bytes());
+  Write(folder / "poses", RosBytes('\10')
+                              .Header("cart")
+                              .Count(2)
+                              .Reals<double>({1, 2, 3, 0, 0, 0, 1, 4, 5, 6, 0, 0, 0, 0})
+                              .bytes());
+  RosBytes path('\11');
+  path.Header("cart").Count(2);
+  for (int i = 0; i < 2; ++i) path.Header("").Reals<double>({0.5 * i, 2, 3, 0, 0, 0, 1});
+  Write(folder / "path", path.bytes());
+  Write(folder / "wrench",
+        RosBytes('\12').Header("cart").Reals<double>({1, 2, 700, 0, -20, 0}).bytes());
+  Write(folder / "scan", RosBytes('\13')
+                             .Header("cart")
+                             .Reals<float>({-1, 1, 0.5F, 0, 0.1F, 0.1F, 5})
+                             .Count(3)
+                             .Reals<float>({1, 2, 9})
+                             .Count(3)
+                             .Reals<float>({10, 20, 30})
+                             .bytes());
+  RosBytes cloud('\14');
+  cloud.Header("cart").Count(1).Count(2).Count(4);  // height, width, fields
+  std::uint32_t offset = 0;
+  for (const char* name : {"x", "y", "z", "rgb"}) {
+    cloud.Text(name).Count(offset).Byte(7).Count(1);
+    offset += 4;
+  }
+  cloud.Byte(0).Count(16).Count(32).Count(32);  // big-endian, steps of a point and a row, bytes
+  cloud.Reals<float>({1, 2, 3, 0, 4, 5, 6, 1}).Byte(1);
+  Write(folder / "cloud", cloud.bytes());
   Write(folder / "not_finite",
         RosBytes('\0')
             .Header("")

@@ -1,5 +1,6 @@
 // Any bytes as messages of the topics that Kinescope subscribes to: markers (first byte 0 or 1),
-// transforms, link states, joint states and joint loads. They are rejected, or have no more in them
+// transforms, link states, joint states, joint loads, and those that are shown as markers. They are
+// rejected, or have no more in them
 // than their bytes; markers that are accepted can be rendered.
 #include <kinescope/JointLoadArray.h>
 #include <sensor_msgs/JointState.h>
@@ -14,6 +15,7 @@
 #include "core/system/check.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/shown_messages.h"
 
 namespace {
 
@@ -55,12 +57,24 @@ void Read(const std::vector<std::uint8_t>& bytes) {
   Read(bytes, message);
 }
 
+template <class Message>
+void CheckShown(const std::vector<std::uint8_t>& bytes) {
+  const auto convert = FindShownMessage(ros::message_traits::md5sum<Message>());
+  KINESCOPE_CHECK(convert != nullptr);
+  const auto markers = convert(bytes);
+  if (markers) {
+    CheckMarkers(*markers);
+  } else {
+    KINESCOPE_CHECK(!markers.error().text.empty());
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 6) {
+  switch (data[0] % 13) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -74,7 +88,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 2: Read<tf2_msgs::TFMessage>(bytes); break;
     case 3: Read<xsens_mvn_ros_msgs::LinkStateArray>(bytes); break;
     case 4: Read<sensor_msgs::JointState>(bytes); break;
-    default: Read<kinescope_ros::JointLoadArray>(bytes); break;
+    case 5: Read<kinescope_ros::JointLoadArray>(bytes); break;
+    case 6: CheckShown<geometry_msgs::PointStamped>(bytes); break;
+    case 7: CheckShown<geometry_msgs::PoseStamped>(bytes); break;
+    case 8: CheckShown<geometry_msgs::PoseArray>(bytes); break;
+    case 9: CheckShown<nav_msgs::Path>(bytes); break;
+    case 10: CheckShown<geometry_msgs::WrenchStamped>(bytes); break;
+    case 11: CheckShown<sensor_msgs::LaserScan>(bytes); break;
+    default: CheckShown<sensor_msgs::PointCloud2>(bytes); break;
   }
   return 0;
 }

@@ -207,7 +207,8 @@ void ServeOptions::List(options::OptionList& option) {
   option("picture_rate_hz", picture_rate_hz, "highest frame rate of the live picture");
   backend.List(option);
   option("marker_topics", marker_topics,
-         "topics of visualization_msgs/Marker or MarkerArray to show");
+         "topics to show: visualization_msgs/Marker and MarkerArray, points, poses, paths, "
+         "wrenches, laser scans and point clouds (docs/ros.md)");
   option.Formerly("markers");
   option("ros_view", ros_view,
          "whether the ROS camera ~view is published (image_raw, camera_info and its frame); "

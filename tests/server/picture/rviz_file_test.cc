@@ -103,7 +103,7 @@ TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
                    "      Displays: [{Class: jsk/Overlay, Enabled: no, Name: Words}]\n"
                    "    - {class: rviz/Image, Enabled: true, Name: lower case}\n"));
   EXPECT_THAT(picture.remarks,
-              ElementsAre("saved.rviz:3: rviz/Path 'Plan' is not drawn",
+              ElementsAre("saved.rviz:3: rviz/Path 'Plan' is not drawn: it has no topic",
                           "saved.rviz:10: jsk/Overlay 'Words' is not drawn",
                           "saved.rviz:11: a display without a Class 'lower case' is not drawn",
                           HasSubstr("the current view has no Class")));
@@ -202,6 +202,30 @@ TEST(RvizFile, IsRefusedWithPlaceAndReason) {
       "saved.rviz:3: is a configuration of RViz 2 ('rviz_default_plugins/Grid'); save one with "
       "RViz 1");
   EXPECT_THAT(RefusalOfText(std::string(200, '[')), HasSubstr("too many levels; at most 100"));
+}
+
+TEST(RvizFile, HasTheTopicsOfDisplaysThatAreOn) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/Pose, Enabled: true, Name: Goal, Topic: /move/goal}
+    - {Class: rviz/PointCloud2, Enabled: false, Name: Depth, Topic: /depth/points}
+    - {Class: rviz/MarkerArray, Enabled: true, Name: Walls, Marker Topic: walls}
+    - Class: rviz/Group
+      Enabled: true
+      Displays:
+        - {Class: rviz/Path, Enabled: true, Name: Plan, Topic: /plan}
+        - {Class: rviz/LaserScan, Enabled: true, Name: Scan, Topic: "/scan;rm"}
+        - {Class: rviz/Odometry, Enabled: true, Name: Odometry, Topic: /odom}
+)");
+  ASSERT_EQ(picture.topics.size(), 3u);
+  EXPECT_EQ(picture.topics[0].name, "/move/goal");
+  EXPECT_EQ(picture.topics[0].display, "rviz/Pose 'Goal'");
+  EXPECT_EQ(picture.topics[0].line, 4);
+  EXPECT_TRUE(picture.topics[1].is_marker);
+  EXPECT_EQ(picture.topics[2].name, "/plan");
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("rviz/Odometry 'Odometry' is not drawn")));
 }
 
 TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {

@@ -1,5 +1,6 @@
 // What ROS sees of the person, with everything real: a master, `kinescope serve`, and this test as
 // the one who looks.
+#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <image_transport/image_transport.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -193,6 +194,29 @@ TEST_F(ViewOverRos, ShowsExternalMarkers) {
     return pixel[0] > 120 && pixel[1] < 60 && pixel[2] < 60;
   };
   EXPECT_TRUE(Spin(is_red)) << Diagnostics("ros");
+}
+
+// What RViz has a display for: a point is a sphere in its colour, where it says it is.
+TEST_F(ViewOverRos, ShowsPointsOfOtherNodes) {
+  StartServe(
+      "--ros_view_size 320x240 --ros_view_rate_hz 10 --ros_view_camera front --marker_topics "
+      "/goal");
+  geometry_msgs::PointStamped goal;
+  goal.header.frame_id = "world";
+  goal.point.y = 0.9;
+  goal.point.z = 0.4;
+  const ros::Publisher goals = node_->advertise<geometry_msgs::PointStamped>("/goal", 1, true);
+  goals.publish(goal);
+  sensor_msgs::Image image;
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto& m) { image = m; });
+  const auto has_goal = [&] {
+    std::size_t magenta = 0;
+    for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
+      magenta += image.data[i] > 120 && image.data[i + 1] < 70 && image.data[i + 2] > 120;
+    }
+    return magenta > 200;
+  };
+  EXPECT_TRUE(Spin(has_goal)) << Diagnostics("ros");
 }
 
 TEST_F(ViewOverRos, ArrivesThroughEveryInstalledTransport) {

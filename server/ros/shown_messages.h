@@ -1,0 +1,56 @@
+/// Messages of other nodes that RViz has displays for (poses, paths, points, wrenches, laser scans,
+/// point clouds), as markers: so they go the way of all external markers, to the page, to pictures
+/// and to clips. Shapes and colours are the defaults of RViz 1.14, except where the functions say
+/// otherwise. Pure functions, any thread.
+#pragma once
+
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/Marker.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "server/ros/force_input.h"
+
+namespace kinescope::ros_bridge {
+
+/// Of one message. Their ids are the same for each message of a type, so that a message replaces
+/// the one before; what it does not show is deleted.
+using ShownMarkers = std::vector<visualization_msgs::Marker>;
+
+/// A cloud may have more points than a page can take ten times a second: every n-th is shown, which
+/// makes 3 MB of triangles.
+inline constexpr std::size_t kMostCloudPoints = 4'000;
+
+/// A sphere of 0.4 m.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message);
+/// An arrow of 1.3 m along x.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message);
+/// Flat arrows of 0.3 m; lines of 6 mm, because a marker has no width in pixels.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message);
+/// A line through the positions, in the frame of the path, as in RViz; 2 cm wide.
+Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message);
+/// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m.
+/// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message);
+/// Points of 1 cm, coloured by intensity where the scan has it.
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message);
+/// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white.
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message);
+
+/// The markers of serialised bytes; or why there are none.
+using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes);
+/// Null unless messages of this type are shown.
+ToMarkersOfBytes FindShownMessage(const std::string& md5sum);
+
+/// "geometry_msgs/PointStamped, ..."
+std::string NamesOfShownMessages();
+
+}  // namespace kinescope::ros_bridge

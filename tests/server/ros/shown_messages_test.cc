@@ -1,0 +1,256 @@
+#include "server/ros/shown_messages.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "server/ros/marker_input.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using visualization_msgs::Marker;
+
+template <class Message>
+std::vector<std::uint8_t> BytesOfMessage(const Message& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  return bytes;
+}
+
+// As the inbox does it: by the type that the connection states. Each of them can be drawn.
+template <class Message>
+ShownMarkers ShownOf(const Message& message) {
+  const auto convert = FindShownMessage(ros::message_traits::md5sum<Message>());
+  if (convert == nullptr) return {};
+  const auto markers = convert(BytesOfMessage(message));
+  if (!markers) return {};
+  MarkerStore store;
+  for (const Marker& marker : *markers) {
+    const auto refusal = store.Apply(0, marker, 0);
+    EXPECT_FALSE(refusal) << refusal->text;
+  }
+  return *markers;
+}
+
+template <class Message>
+Message InFrame() {
+  Message message;
+  message.header.frame_id = "cart";
+  message.header.stamp = ros::Time(7, 8);
+  return message;
+}
+
+std::array<int, 3> RgbOf(const std_msgs::ColorRGBA& color) {
+  const auto level = [](float share) { return static_cast<int>(std::lround(255 * share)); };
+  return {level(color.r), level(color.g), level(color.b)};
+}
+
+// Colours and sizes: the defaults of rviz/default_plugin/*_display.cpp 1.14.
+TEST(ShownMessages, APointIsASphere) {
+  auto point = InFrame<geometry_msgs::PointStamped>();
+  point.point.z = 1.5;
+  const ShownMarkers markers = ShownOf(point);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::SPHERE);
+  EXPECT_EQ(markers[0].header.frame_id, "cart");
+  EXPECT_EQ(markers[0].header.stamp, ros::Time(7, 8));
+  EXPECT_DOUBLE_EQ(markers[0].pose.position.z, 1.5);
+  EXPECT_DOUBLE_EQ(markers[0].scale.x, 0.4);
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{204, 41, 204}));
+}
+
+TEST(ShownMessages, APoseIsAnArrowAlongX) {
+  auto pose = InFrame<geometry_msgs::PoseStamped>();
+  pose.pose.orientation.z = 1;  // x is -x
+  pose.pose.position.y = 2;
+  const ShownMarkers markers = ShownOf(pose);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::ARROW);
+  EXPECT_DOUBLE_EQ(markers[0].pose.orientation.z, 1);
+  EXPECT_DOUBLE_EQ(markers[0].points.at(1).x, 1.3);
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{255, 25, 0}));
+}
+
+TEST(ShownMessages, PosesAreFlatArrows) {
+  auto poses = InFrame<geometry_msgs::PoseArray>();
+  poses.poses.resize(2);
+  poses.poses[0].position.x = 1;  // without an orientation
+  poses.poses[1].orientation.z = poses.poses[1].orientation.w = std::sqrt(0.5);
+  const ShownMarkers markers = ShownOf(poses);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::LINE_LIST);
+  ASSERT_THAT(markers[0].points, SizeIs(12));
+  EXPECT_NEAR(markers[0].points[1].x, 1.3, 1e-12);
+  EXPECT_NEAR(markers[0].points[3].x, 1.225, 1e-12);
+  EXPECT_NEAR(markers[0].points[3].y, 0.06, 1e-12);
+  EXPECT_NEAR(markers[0].points[7].y, 0.3, 1e-12) << "the second one points along y";
+  poses.poses.clear();
+  EXPECT_EQ(ShownOf(poses).at(0).action, Marker::DELETE) << "what was shown before is gone";
+  poses.poses.resize(20'000);
+  const auto refused = ToMarkers(poses);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text, "20000 poses: expected at most 16666");
+}
+
+TEST(ShownMessages, APathIsALineThroughItsPositions) {
+  auto path = InFrame<nav_msgs::Path>();
+  path.poses.resize(3);
+  path.poses[1].pose.position.x = 1;
+  path.poses[1].header.frame_id = "elsewhere";  // RViz uses the frame of the path
+  const ShownMarkers markers = ShownOf(path);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::LINE_STRIP);
+  EXPECT_EQ(markers[0].header.frame_id, "cart");
+  EXPECT_THAT(markers[0].points, SizeIs(3));
+  path.poses.resize(1);
+  EXPECT_EQ(ShownOf(path).at(0).action, Marker::DELETE);
+}
+
+TEST(ShownMessages, AWrenchIsAnArrowForItsForceAndOneForItsMoment) {
+  auto wrench = InFrame<geometry_msgs::WrenchStamped>();
+  wrench.wrench.force.z = 700;
+  wrench.wrench.torque.x = -20;
+  ShownMarkers markers = ShownOf(wrench);
+  ASSERT_THAT(markers, SizeIs(2));
+  EXPECT_NEAR(markers[0].points.at(1).z, 0.7, 1e-12);
+  EXPECT_NEAR(markers[1].points.at(1).x, -0.2, 1e-12);
+  wrench.wrench.force.z = 4;
+  markers = ShownOf(wrench);
+  EXPECT_EQ(markers.at(0).action, Marker::DELETE);
+  EXPECT_EQ(markers.at(1).action, Marker::ADD);
+}
+
+TEST(ShownMessages, AScanHasThePointsWithinItsRange) {
+  auto scan = InFrame<sensor_msgs::LaserScan>();
+  scan.angle_min = -1;
+  scan.angle_increment = 1;
+  scan.range_min = 0.1F;
+  scan.range_max = 5;
+  scan.ranges = {2, 1, 0.01F, 6, std::nanf("")};
+  scan.intensities = {10, 30, 0, 0, 0};
+  const ShownMarkers markers = ShownOf(scan);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::POINTS);
+  ASSERT_THAT(markers[0].points, SizeIs(2));
+  EXPECT_NEAR(markers[0].points[0].x, 2 * std::cos(1), 1e-6);
+  EXPECT_NEAR(markers[0].points[0].y, -2 * std::sin(1), 1e-6);
+  EXPECT_NEAR(markers[0].points[1].x, 1, 1e-6);
+  EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{255, 0, 0})) << "the least: red";
+  EXPECT_EQ(RgbOf(markers[0].colors.at(1)), (std::array<int, 3>{255, 0, 255}));
+}
+
+// x, y and z, and four bytes more under a name of its own.
+sensor_msgs::PointCloud2 CloudOf(std::uint32_t points, const std::string& fourth,
+                                 std::uint8_t type) {
+  auto cloud = InFrame<sensor_msgs::PointCloud2>();
+  cloud.height = 1;
+  cloud.width = points;
+  cloud.point_step = 16;
+  cloud.row_step = 16 * points;
+  cloud.data.resize(16 * std::size_t{points});
+  for (const std::string& name : {std::string("x"), std::string("y"), std::string("z"), fourth}) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = static_cast<std::uint32_t>(4 * cloud.fields.size());
+    field.datatype = name == fourth ? type : std::uint8_t{sensor_msgs::PointField::FLOAT32};
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  return cloud;
+}
+
+template <class T>
+void Put(sensor_msgs::PointCloud2& cloud, std::size_t point, std::size_t field, T value) {
+  static_assert(sizeof value == 4);
+  std::memcpy(&cloud.data.at(16 * point + 4 * field), &value, sizeof value);
+}
+
+TEST(ShownMessages, ACloudHasItsColoursOrThoseOfItsIntensities) {
+  auto colored = CloudOf(3, "rgb", sensor_msgs::PointField::FLOAT32);
+  Put(colored, 1, 0, 2.5F);
+  Put(colored, 1, 3, std::uint32_t{0x00102030});
+  Put(colored, 2, 1, std::nanf(""));  // no place
+  ShownMarkers markers = ShownOf(colored);
+  ASSERT_THAT(markers, SizeIs(1));
+  ASSERT_THAT(markers[0].points, SizeIs(2));
+  EXPECT_DOUBLE_EQ(markers[0].points[1].x, 2.5);
+  EXPECT_EQ(RgbOf(markers[0].colors.at(1)), (std::array<int, 3>{0x10, 0x20, 0x30}));
+
+  auto measured = CloudOf(3, "intensity", sensor_msgs::PointField::UINT32);
+  for (std::uint32_t i = 0; i < 3; ++i) Put(measured, i, 3, 100 * i);
+  markers = ShownOf(measured);
+  EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{255, 0, 0}));
+  EXPECT_EQ(RgbOf(markers[0].colors.at(1)), (std::array<int, 3>{0, 255, 128}));
+  EXPECT_EQ(RgbOf(markers[0].colors.at(2)), (std::array<int, 3>{255, 0, 255}));
+
+  markers = ShownOf(CloudOf(3, "ring", sensor_msgs::PointField::UINT32));
+  EXPECT_THAT(markers[0].colors, SizeIs(0));
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{255, 255, 255}));
+}
+
+TEST(ShownMessages, OfALargeCloudEveryNthPointIsShown) {
+  const ShownMarkers markers = ShownOf(CloudOf(10'000, "intensity", 7));
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_THAT(markers[0].points, SizeIs(3'334));
+}
+
+TEST(ShownMessages, ACloudThatContradictsItselfIsRefused) {
+  const auto why = [](const sensor_msgs::PointCloud2& cloud) {
+    const auto markers = ToMarkers(cloud);
+    return markers ? std::string() : markers.error().text;
+  };
+  const sensor_msgs::PointCloud2 good = CloudOf(4, "intensity", 7);
+  EXPECT_EQ(why(good), "");
+  auto bad = good;
+  bad.width = 0xFFFFFFFF;
+  EXPECT_THAT(why(bad), HasSubstr("more points than it has"));
+  bad = good;
+  bad.height = 0xFFFFFFFF;
+  EXPECT_THAT(why(bad), HasSubstr("more points than it has"));
+  bad = good;
+  bad.data.pop_back();
+  EXPECT_THAT(why(bad), HasSubstr("more points than it has"));
+  bad = good;
+  bad.fields[2].offset = 13;
+  EXPECT_THAT(why(bad), HasSubstr("no fields x, y and z"));
+  bad = good;
+  bad.fields[1].datatype = 200;
+  EXPECT_THAT(why(bad), HasSubstr("no fields x, y and z"));
+  bad = good;
+  bad.is_bigendian = 1;
+  EXPECT_THAT(why(bad), HasSubstr("big-endian"));
+  bad = good;
+  bad.fields[3].offset = 0xFFFFFFFF;
+  EXPECT_EQ(why(bad), "") << "its intensity is not read";
+  bad.width = bad.height = bad.row_step = bad.point_step = 0;
+  EXPECT_THAT(why(bad), HasSubstr("no fields"));
+}
+
+TEST(ShownMessages, OtherTypesAreNone) {
+  EXPECT_EQ(FindShownMessage(ros::message_traits::md5sum<visualization_msgs::Marker>()), nullptr);
+  EXPECT_EQ(FindShownMessage(""), nullptr);
+  EXPECT_THAT(NamesOfShownMessages(), HasSubstr("nav_msgs/Path, geometry_msgs/WrenchStamped"));
+}
+
+TEST(ShownMessages, TruncatedOnesAreRefused) {
+  auto path = InFrame<nav_msgs::Path>();
+  path.poses.resize(2);
+  const std::vector<std::uint8_t> whole = BytesOfMessage(path);
+  const auto convert = FindShownMessage(ros::message_traits::md5sum<nav_msgs::Path>());
+  ASSERT_NE(convert, nullptr);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_FALSE(convert({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}))
+        << size;
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
