@@ -18,12 +18,12 @@
 #include "core/body_sample.h"
 #include "core/load_class.h"
 #include "core/mesh_files.h"
+#include "core/robot_state.h"
 #include "core/scene_marker.h"
 #include "core/suit_colors.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
 #include "urdf/rigid_deviation.h"
-#include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_model.h"
 
 namespace kinescope {
@@ -124,18 +124,6 @@ struct TrackedObject {
   std::string name;   // from the scale data, else "object_1"
   urdf::Pose pose;    // world_from_object
   std::int64_t stamp_nanos = 0;
-};
-
-/// Any robot with a URDF, shown beside the people.
-struct RobotState {
-  std::string name;
-  std::shared_ptr<const urdf::RobotModel> model;  // never null
-  std::shared_ptr<const urdf::MeshSearch>
-      meshes;  // where its meshes are; null: absolute paths only
-  std::vector<Eigen::Isometry3d> world_from_link;  // world, m; in the order of model->links
-                                                   // (urdf::PlaceLinks)
-  Eigen::AlignedBox3d bounds;  // of its rendered shapes (render::Renderer::Bounds), world, m;
-                               // empty: unknown
 };
 
 enum class Liveness {

@@ -13,6 +13,7 @@
 #include "core/duration_histogram.h"
 #include "core/node_clock.h"
 #include "core/playback.h"
+#include "core/robot_state.h"
 #include "core/scene_marker.h"
 #include "core/system/clocks.h"
 
@@ -46,14 +47,20 @@ struct SourceCounters {
   std::map<std::string, std::uint64_t> transport;
 };
 
+/// What a recording has beside the people, in the world frame.
+struct RecordedSurroundings {
+  MarkerList markers;
+  RobotList robots;
+};
+
 class SampleSink {
  public:
   virtual ~SampleSink() = default;
   virtual void OnCharacter(const Character& character) = 0;
   virtual void OnSample(const BodySample& sample) = 0;
   virtual void OnObjects(const ObjectsSample&) {}
-  /// The markers of a recording from the next sample on, in place of those before.
-  virtual void OnRecordedMarkers(const MarkerList&) {}
+  /// Those of a recording from the next sample on, in place of those before.
+  virtual void OnSurroundings(const RecordedSurroundings&) {}
 };
 
 class Source {

@@ -12,14 +12,16 @@ struct RecordingSink : SampleSink {
   std::vector<BodySample> samples;
   std::vector<ObjectsSample> objects;
   std::vector<MarkerList> markers;  // of each sample
-  MarkerList shown;
+  std::vector<RobotList> robots;    // of each sample
+  RecordedSurroundings shown;
 
   void OnCharacter(const Character& character) override { characters.push_back(character); }
   void OnSample(const BodySample& sample) override {
     samples.push_back(sample);
-    markers.push_back(shown);
+    markers.push_back(shown.markers);
+    robots.push_back(shown.robots);
   }
-  void OnRecordedMarkers(const MarkerList& all) override { shown = all; }
+  void OnSurroundings(const RecordedSurroundings& all) override { shown = all; }
   void OnObjects(const ObjectsSample& sample) override { objects.push_back(sample); }
 };
 

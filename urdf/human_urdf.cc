@@ -314,6 +314,11 @@ std::array<std::string, 6> PropJointNames(const std::string& model_name, int pro
 
 std::string LinkInside(const std::string& joint_name) { return joint_name + "_link"; }
 
+bool IsWrittenByKinescope(std::string_view urdf) {
+  constexpr std::size_t kBeginning = 400;  // bytes
+  return urdf.substr(0, kBeginning).find(kWrittenByKinescope) != std::string_view::npos;
+}
+
 std::string WriteUrdf(const HumanModel& human) {
   const bool has_gloves = human.gloves[kRight] || human.gloves[kLeft];
   std::string text = fmt::format(

@@ -20,6 +20,7 @@
 #include <bitset>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "urdf/body_parameters.h"
 #include "urdf/hand.h"
@@ -31,6 +32,8 @@ inline constexpr int kMaxProps = 4;
 
 /// Part of a comment at the beginning of each URDF that is written here.
 inline constexpr char kWrittenByKinescope[] = "written by Kinescope";
+/// Whether `urdf` is a person of a Kinescope, as its beginning says.
+bool IsWrittenByKinescope(std::string_view urdf);
 
 struct HumanModel {
   std::string model_name = "skeleton";  // prefix of link and joint names, name of the robot

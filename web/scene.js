@@ -166,6 +166,7 @@ export class Scene {
     this.#ghosts.update({ ...state, people: state.ghosts }, isLive);
     this.#trails.update(state);
     this.#objects?.update(state.objects, isLive);
+    this.#surroundings.place(state.robots);
     if (state.people.length > 0) {
       this.#middle = this.#liveCamera.setState(state, this.#framing?.reach_m ?? Infinity);
       this.#aim();

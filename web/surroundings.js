@@ -10,6 +10,8 @@ const TEXT_PIXELS = 64;     // size of the font of a label's texture
 // From the axes of GLB to the world's: x forward, y left, z up.
 const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
 
+/** @typedef {import('./state_codec.js').Pose} Pose */
+
 export class Surroundings {
   group = new THREE.Group();
   /** @type {string[]} */ problems = [];
@@ -17,6 +19,8 @@ export class Surroundings {
   #asked = { revision: /** @type {number|null} */ (null), at: -Infinity };
   #isLoading = false;
   #hidden = /** @type {readonly string[]} */ ([]);
+  /** @type {THREE.Object3D[][]} */ #links = [];  // of the robots that move, by their numbers
+  /** @type {readonly Pose[][]} */ #robots = [];
 
   /** @param {() => void} onChange */
   constructor(onChange) {
@@ -34,6 +38,19 @@ export class Surroundings {
     for (const node of this.group.children[0]?.children[0]?.children ?? []) {
       node.visible = !this.#hidden.includes(node.name.startsWith('robot') ? 'robots' : 'markers');
     }
+  }
+
+  /** Moves robots.
+   *  @param {readonly Pose[][]} robots  of the state that is shown */
+  place(robots) {
+    this.#robots = robots;
+    this.#links.forEach((links, robot) => links.forEach((node, link) => {
+      const pose = robots[robot]?.[link];
+      node.visible = pose !== undefined && pose.position.every(Number.isFinite) && pose.quaternion.every(Number.isFinite);
+      if (!pose || !node.visible) return;
+      node.position.fromArray(pose.position);
+      node.quaternion.fromArray(pose.quaternion);
+    }));
   }
 
   /** Shows those of the server as soon as they are loaded. Call it often.
@@ -79,16 +96,32 @@ export class Surroundings {
   #show(revision, scene, problems) {
     this.group.traverse(dispose);
     this.group.clear();
+    this.#links = [];
     this.#shown = revision;
     this.problems = problems;
     if (revision === null) this.#asked.revision = null;
     if (scene !== null) {
       scene.traverse(prepare);
       this.group.add(scene);
+      this.#links = linksOf(scene);
+      this.place(this.#robots);
       this.#hideParts();
     }
     this.onChange();
   }
+}
+
+/** The nodes of the links of each robot that moves, by the numbers in the file.
+ *  @param {THREE.Object3D} scene */
+function linksOf(scene) {
+  /** @type {THREE.Object3D[][]} */ const robots = [];
+  scene.traverse((node) => {
+    const { link } = node.userData, robot = node.parent?.userData.robot;
+    if (link === undefined || robot === undefined) return;
+    robots[robot] ??= [];
+    robots[robot][link] = node;
+  });
+  return robots;
 }
 
 /** @param {THREE.Object3D} part

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/color_difference.h"
 #include "core/system/utf8.h"
@@ -29,8 +30,7 @@ class Document {
   Document() {
     const Eigen::Quaterniond turn(rig::GlbAxes());
     nodes_ = {{{"name", "surroundings"},
-               {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
-               {"children", json::array()}}};
+               {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}}};
     json& document = glb_.document();
     // Colours are those of the vertices.
     const json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.7}};
@@ -48,14 +48,20 @@ class Document {
   };
 
   void AddMeshes(const std::string& name, const std::vector<Part>& parts) {
-    json primitives = json::array();
-    for (const Part& part : parts) {
-      if (!part.mesh.triangles.empty()) primitives.push_back(Primitive(part));
+    if (const auto mesh = AddMesh(parts)) {
+      AddNode({{"name", PrintableLine(name)}, {"mesh", *mesh}}, kRoot);
     }
-    if (primitives.empty()) return;
-    json& meshes = glb_.document()["meshes"];
-    meshes.push_back({{"primitives", std::move(primitives)}});
-    AddNode({{"name", PrintableLine(name)}, {"mesh", meshes.size() - 1}});
+  }
+
+  /// A node with one node for each of `links`, whose places are not in the file.
+  void AddMovingRobot(const std::string& name, std::size_t number,
+                      const std::vector<std::vector<Part>>& links) {
+    const std::size_t robot = AddNode(
+        {{"name", PrintableLine(name)}, {"extras", {{"robot", number}}}}, kRoot);
+    for (std::size_t link = 0; link < links.size(); ++link) {
+      const auto mesh = AddMesh(links[link]);
+      if (mesh) AddNode({{"mesh", *mesh}, {"extras", {{"link", link}}}}, robot);
+    }
   }
 
   void AddLabel(const Label& label) {
@@ -65,23 +71,39 @@ class Document {
               {{"text", PrintableLine(label.text)},
                {"height", label.height_m},
                {"color", label.color},
-               {"opacity", label.opacity}}}});
+               {"opacity", label.opacity}}}},
+            kRoot);
   }
 
   std::string Write(const std::vector<std::string>& problems) {
     json lines = json::array();
     for (const std::string& problem : problems) lines.push_back(PrintableLine(problem));
     json& document = glb_.document();
-    if (nodes_[0]["children"].empty()) nodes_[0].erase("children");
     document["nodes"] = std::move(nodes_);
     document["scenes"] = {{{"nodes", {0}}, {"extras", {{"problems", std::move(lines)}}}}};
     return glb_.Write();
   }
 
  private:
-  void AddNode(json node) {
-    nodes_[0]["children"].push_back(nodes_.size());
+  static constexpr std::size_t kRoot = 0;
+
+  // Returns its number.
+  std::size_t AddNode(json node, std::size_t parent) {
+    nodes_[parent]["children"].push_back(nodes_.size());
     nodes_.push_back(std::move(node));
+    return nodes_.size() - 1;
+  }
+
+  // Its number; nullopt: there are no triangles.
+  std::optional<std::size_t> AddMesh(const std::vector<Part>& parts) {
+    json primitives = json::array();
+    for (const Part& part : parts) {
+      if (!part.mesh.triangles.empty()) primitives.push_back(Primitive(part));
+    }
+    if (primitives.empty()) return std::nullopt;
+    json& meshes = glb_.document()["meshes"];
+    meshes.push_back({{"primitives", std::move(primitives)}});
+    return meshes.size() - 1;
   }
 
   json Primitive(const Part& part) {
@@ -116,6 +138,10 @@ class Document {
   json nodes_;
 };
 
+Document::Material MaterialOf(const VisualMesh& solid) {
+  return solid.is_closed ? Document::kClosed : Document::kOpen;
+}
+
 // Where the robot's links are; parts of links that are nowhere are left out.
 urdf::Mesh Placed(const urdf::Mesh& mesh, const RobotState& robot) {
   const auto pose_of = [&](std::size_t vertex) -> const Eigen::Isometry3d* {
@@ -148,11 +174,13 @@ const SurroundingsGlb::RobotShape& SurroundingsGlb::ShapeOf(const RobotState& ro
   shape.model = robot.model;
   VisualReader reader(robot.meshes ? *robot.meshes : urdf::MeshSearch(),
                       urdf::ShapeDetail::Robot());
-  for (std::size_t link = 0; link < robot.model->links.size(); ++link) {
+  for (const std::size_t link : LinksToDraw(*robot.model)) {
+    if (robot.moves || shape.surfaces.empty()) shape.surfaces.emplace_back();
+    Surface& surface = shape.surfaces.back();
     for (const urdf::Visual& visual : robot.model->links[link].visuals) {
       const double opacity = OpacityOf(visual);
       if (opacity <= 0) continue;
-      reader.Add(visual, static_cast<int>(link), opacity < 1 ? shape.blended : shape.solid);
+      reader.Add(visual, static_cast<int>(link), opacity < 1 ? surface.blended : surface.solid);
     }
   }
   return shape;
@@ -167,15 +195,29 @@ std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const Scene
                       {shapes.blended, Document::kBlended}});
   for (const Label& label : shapes.labels) document.AddLabel(label);
   std::vector<std::string> problems = std::move(shapes.problems);
+  std::size_t moving = 0;
   for (const RobotState& robot : robots) {
     const RobotShape& shape = ShapeOf(robot);
-    document.AddMeshes("robot " + robot.name,
-                       {{Placed(shape.solid.mesh, robot),
-                         shape.solid.is_closed ? Document::kClosed : Document::kOpen},
-                        {Placed(shape.blended.mesh, robot), Document::kBlended}});
-    for (const VisualMesh* mesh : {&shape.solid, &shape.blended}) {
-      problems.insert(problems.end(), mesh->problems.begin(), mesh->problems.end());
+    if (robot.moves) {
+      std::vector<std::vector<Document::Part>> links;
+      for (const Surface& surface : shape.surfaces) {
+        links.push_back({{surface.solid.mesh, MaterialOf(surface.solid)},
+                         {surface.blended.mesh, Document::kBlended}});
+      }
+      document.AddMovingRobot("robot " + robot.name, moving++, links);
+    } else {
+      for (const Surface& surface : shape.surfaces) {
+        document.AddMeshes("robot " + robot.name,
+                           {{Placed(surface.solid.mesh, robot), MaterialOf(surface.solid)},
+                            {Placed(surface.blended.mesh, robot), Document::kBlended}});
+      }
     }
+    for (const Surface& surface : shape.surfaces) {
+      for (const VisualMesh* mesh : {&surface.solid, &surface.blended}) {
+        problems.insert(problems.end(), mesh->problems.begin(), mesh->problems.end());
+      }
+    }
+    if (!robot.problem.empty()) problems.push_back(robot.problem);
   }
   const auto is_gone = [&](const auto& known) {
     return std::none_of(robots.begin(), robots.end(),

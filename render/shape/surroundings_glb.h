@@ -21,10 +21,14 @@ class SurroundingsGlb : public SurroundingsWriter {
                     const std::vector<RobotState>& robots) override;
 
  private:
-  /// A robot's surface, in the frames of its links.
+  /// A surface in the frames of links; part: number of the link.
+  struct Surface {
+    VisualMesh solid, blended;
+  };
   struct RobotShape {
     std::shared_ptr<const urdf::RobotModel> model;  // held, so that its address is not reused
-    VisualMesh solid, blended;                      // part: number of the link
+    /// Of a robot that stands: one. Of one that moves: one for each of LinksToDraw().
+    std::vector<Surface> surfaces;
   };
   const RobotShape& ShapeOf(const RobotState& robot);
 

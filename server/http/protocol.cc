@@ -103,6 +103,19 @@ void PutObject(Writer& out, const TrackedObject& object) {
   PutPose(out, object.pose);
 }
 
+void PutPose(Writer& out, const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond turn(pose.linear());
+  PutPose(out, urdf::Pose{pose.translation(), turn});
+}
+
+void PutRobot(Writer& out, const RobotState& robot) {
+  const std::vector<std::size_t> links = LinksToDraw(*robot.model);
+  KINESCOPE_CHECK(links.size() <= std::numeric_limits<std::uint16_t>::max());
+  out.Put(static_cast<std::uint16_t>(links.size()));
+  out.Put(std::uint16_t{0});
+  for (const std::size_t link : links) PutPose(out, robot.world_from_link.at(link));
+}
+
 // A force that is unknown, or too small to be shown, is NaN.
 void PutFoot(Writer& out, const FootForce& foot) {
   const bool is_shown = foot.force.norm() > kMinForceShown && foot.cop.allFinite();
@@ -179,7 +192,13 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   out.Put(ghosts);
   out.Put(WaitedUnits(state.waited_nanos));
   out.PutFloat(state.view_heading);
-  out.Put(std::uint32_t{0});
+  std::vector<const RobotState*> robots;
+  for (const RobotState& robot : state.robots) {
+    if (robot.moves) robots.push_back(&robot);
+  }
+  robots.resize(CountByte(robots.size()));
+  out.Put(static_cast<std::uint8_t>(robots.size()));
+  for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
   out.PutDouble(Micros(state.made_nanos));
   const history::Extent kept = moment.kept.value_or(history::Extent{});
   out.PutDouble(Micros(kept.first_nanos));
@@ -188,6 +207,7 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person);
+  for (const RobotState* const robot : robots) PutRobot(out, *robot);
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 7;
+inline constexpr std::uint8_t kProtocolVersion = 8;
 
-/// "kinescope.v7": the name of this version among the subprotocols of a WebSocket.
+/// "kinescope.v8": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();
 
 /// Whether a client that offers these subprotocols (a list, separated by commas) can read the
@@ -40,6 +40,7 @@ inline constexpr std::size_t kCornerBytes = 8;
 inline constexpr std::size_t kFootBytes = 24;
 inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
+inline constexpr std::size_t kRobotHeaderBytes = 4;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
 inline constexpr std::size_t kPastHeaderBytes = 16;
 inline constexpr std::size_t kPastStateBytes = 8;  // before each state of it
@@ -51,8 +52,8 @@ struct StateMoment {
   std::optional<history::Extent> kept;  // that viewers can look back to
 };
 
-/// At most 255 people, 255 loads per person and 255 tracked objects are sent. Links are
-/// those of core/person_links.h.
+/// At most 255 people, 255 loads per person, 255 tracked objects and 255 robots that move are sent.
+/// Links are those of core/person_links.h, of robots LinksToDraw().
 Bytes EncodeState(const SceneState& state, const StateMoment& moment);
 
 /// The answer to LookBack `id`: former states, each with the content of the message "details" of

@@ -16,7 +16,9 @@ using Eigen::Vector3d;
 
 std::vector<PersonState> ReadMoment(const GhostValue& ghost, const SceneOptions& options) {
   CheckReach("--ghost=" + ghost.ToText(), ghost->secs, ghost->source);
-  SceneReader reader(ghost->source, options);
+  SceneOptions alone = options;
+  alone.bag = {};  // what is beside that person is not shown
+  SceneReader reader(ghost->source, alone);
   SceneTimeline timeline(reader);
   const auto scene = timeline.At(ghost->secs);
   if (!scene || scene->people.empty()) {

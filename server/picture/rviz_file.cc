@@ -13,6 +13,7 @@
 #include "core/system/utf8.h"
 #include "server/options/text.h"
 #include "server/options/yaml_file.h"
+#include "server/picture/ros_names.h"
 #include "server/picture/rviz_values.h"
 #include "server/picture/rviz_view.h"
 
@@ -46,14 +47,6 @@ constexpr const char* kTopicDisplays[] = {"rviz/PointStamped", "rviz/Pose",     
 bool IsTopicDisplay(const std::string& kind) {
   return std::find(std::begin(kTopicDisplays), std::end(kTopicDisplays), kind) !=
          std::end(kTopicDisplays);
-}
-
-bool IsTopicName(const std::string& name) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return !name.empty() && (name[0] == '/' || is_letter(name[0])) &&
-         name.find_first_not_of(
-             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_/") ==
-             std::string::npos;
 }
 
 std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }

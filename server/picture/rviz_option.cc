@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/picture/ros_names.h"
 #include "server/picture/rviz_file.h"
 
 namespace kinescope::app {
@@ -22,7 +23,6 @@ bool IsPartOfView(const std::string& option) {
 // `serve` shows what is on their topics, if it has ROS; otherwise they are named.
 void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>& topics,
                  options::OptionList& list) {
-  constexpr std::size_t kMostTopics = 16;  // of --marker_topics
   options::Option* const option = list.Find("marker_topics");
   const options::Option* const ros = list.Find("ros");
   const bool is_possible = option != nullptr && !(ros != nullptr && ros->value->ToText() == "off");
@@ -36,8 +36,8 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
       }
     } else if (std::find(names.begin(), names.end(), topic.name) != names.end()) {
       continue;
-    } else if (names.size() == kMostTopics) {
-      spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, kMostTopics);
+    } else if (names.size() == kMaxMarkerTopics) {
+      spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, kMaxMarkerTopics);
     } else {
       names.push_back(topic.name);
     }

@@ -26,6 +26,7 @@ void SceneAdditions::AddNamesTo(SceneState& state, render::SceneLook& look) cons
 
 std::vector<Ball> SceneAdditions::BallsBeside(const SceneState& state) const {
   SceneState beside;
+  beside.robots = state.robots;  // of the recording
   for (Ghost& ghost : ghost_.Make(state)) beside.people.push_back(std::move(ghost.person));
   AddRobotsTo(beside, state.floor_z);
   return render::BallsOf(beside);

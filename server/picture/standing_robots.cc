@@ -33,9 +33,10 @@ RobotState Stand(const std::string& file, const RobotPlace::Place& place,
 std::vector<RobotState> ReadStandingRobots(const std::vector<RobotPlace>& places,
                                            const BackendOptions& backend) {
   std::vector<RobotState> robots;
-  if (places.empty()) return robots;
-  const auto renderer = StartRenderer(backend);
+  std::unique_ptr<render::Renderer> renderer;
   for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].tf_prefix) continue;
+    if (!renderer) renderer = StartRenderer(backend);
     const RobotPlace::Place beside{0, kApart * static_cast<double>(i + 1), 0};
     robots.push_back(Stand(places[i].file, places[i].place.value_or(beside), *renderer));
   }

@@ -1,4 +1,4 @@
-/// The robots of the option --robot, which stand on the floor beside the people.
+/// Those robots of the option --robot, which stand on the floor beside the people.
 #pragma once
 
 #include <vector>

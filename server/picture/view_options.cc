@@ -13,6 +13,7 @@
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/options/text.h"
+#include "server/picture/ros_names.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_reader.h"
 #include "urdf/segments.h"
@@ -283,7 +284,6 @@ void GhostValue::SetFolder(const std::filesystem::path& folder) {
   text_ = (folder / text_).string();  // it begins with the source
 }
 
-// A name may hold an @ of its own: what follows the last one is a place when it looks like one.
 void RobotsValue::Parse(const std::string& text) {
   std::vector<std::string> texts;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -294,28 +294,49 @@ void RobotsValue::Parse(const std::string& text) {
   ParseAll(texts);
 }
 
+namespace {
+
+// A name may hold an @ of its own: what follows the last one is a place when it looks like one.
+std::optional<RobotPlace> ParseRobot(const std::string& text) {
+  constexpr std::string_view kRos = "ros:", kTf = "tf";
+  RobotPlace robot;
+  robot.file = text;
+  const auto parts = options::SplitAtLast(text, '@');
+  const std::string place = parts ? parts->second : "";
+  if (place == kTf || StartsWith(place, "tf:")) {
+    robot.file = parts->first;
+    robot.tf_prefix = place == kTf ? "" : place.substr(kTf.size() + 1);
+    if (place != kTf && !IsFrameName(*robot.tf_prefix)) return std::nullopt;
+  } else if (place.find_first_of("0123456789+-.") == 0) {
+    const auto numbers = options::ParseNumbers(place);
+    const bool is_good = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
+                         std::all_of(numbers->begin(), numbers->end(),
+                                     [](double n) { return std::abs(n) <= kFarthestRobot; });
+    if (!is_good) return std::nullopt;
+    robot.file = parts->first;
+    const double yaw = numbers->size() == 3 ? (*numbers)[2] : 0;
+    robot.place = {(*numbers)[0], (*numbers)[1], yaw * M_PI / 180};
+  }
+  if (robot.file.empty()) return std::nullopt;
+  if (!StartsWith(robot.file, kRos)) return robot;
+  robot.parameter = robot.file.substr(kRos.size());
+  robot.file.clear();
+  if (robot.place || !IsTopicName(robot.parameter)) return std::nullopt;
+  if (!robot.tf_prefix) robot.tf_prefix = "";
+  return robot;
+}
+
+}  // namespace
+
 void RobotsValue::ParseAll(const std::vector<std::string>& texts) {
   if (texts.size() > kMaxRobots) {
     throw BadValue(fmt::format("expected at most {} robots", kMaxRobots));
   }
   std::vector<RobotPlace> robots;
   for (const std::string& text : texts) {
-    RobotPlace robot{text, std::nullopt};
-    const auto parts = options::SplitAtLast(text, '@');
-    const bool has_place = parts && parts->second.find_first_of("0123456789+-.") == 0;
-    if (has_place) {
-      const auto numbers = options::ParseNumbers(parts->second);
-      const bool is_good = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
-                           !parts->first.empty() &&
-                           std::all_of(numbers->begin(), numbers->end(),
-                                       [](double n) { return std::abs(n) <= kFarthestRobot; });
-      if (!is_good) RefuseText();
-      robot.file = parts->first;
-      const double yaw = numbers->size() == 3 ? (*numbers)[2] : 0;
-      robot.place = {(*numbers)[0], (*numbers)[1], yaw * M_PI / 180};
-    }
-    if (robot.file.empty()) RefuseText();
-    robots.push_back(std::move(robot));
+    const std::optional<RobotPlace> robot = ParseRobot(text);
+    if (!robot) RefuseText();
+    robots.push_back(*robot);
   }
   value_ = std::move(robots);
   texts_ = texts;
@@ -324,21 +345,38 @@ void RobotsValue::ParseAll(const std::vector<std::string>& texts) {
 std::string RobotsValue::ToText() const { return fmt::format("{}", fmt::join(texts_, ";")); }
 
 std::string RobotsValue::Expected() const {
-  return fmt::format("FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m and degrees, within {})",
-                     kFarthestRobot);
+  return fmt::format(
+      "FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m and degrees, within {}); moved by TF: "
+      "FILE.urdf@tf, ros:PARAMETER, with a prefix of its frames FILE.urdf@tf:PREFIX, "
+      "ros:PARAMETER@tf:PREFIX",
+      kFarthestRobot);
+}
+
+RobotsValue RobotsValue::WithoutMoving() const {
+  RobotsValue standing;
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    if (value_[i].tf_prefix) continue;
+    standing.value_.push_back(value_[i]);
+    standing.texts_.push_back(texts_[i]);
+  }
+  return standing;
 }
 
 std::vector<std::filesystem::path> RobotsValue::Files() const {
   std::vector<std::filesystem::path> files;
   for (const RobotPlace& robot : value_) {
+    if (robot.file.empty()) continue;
     for (auto& file : FilesOfRobot(robot.file)) files.push_back(std::move(file));
   }
   return files;
 }
 
 void RobotsValue::SetFolder(const std::filesystem::path& folder) {
-  for (RobotPlace& robot : value_) robot.file = (folder / robot.file).string();
-  for (std::string& text : texts_) text = (folder / text).string();  // it begins with the file
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    if (value_[i].file.empty()) continue;
+    value_[i].file = (folder / value_[i].file).string();
+    texts_[i] = (folder / texts_[i]).string();  // it begins with the file
+  }
 }
 
 ViewOptions::ViewOptions(std::size_t most_cameras)
@@ -359,7 +397,8 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       floor(true),
       show(Joined(PartNames(false)), render::kSceneParts.size(), PartNamed, kFormerParts),
       hide(Joined(PartNames(true)), render::kSceneParts.size(), PartNamed, kFormerParts),
-      ghost_opacity(GhostOpacity()) {}
+      ghost_opacity(GhostOpacity()),
+      marker_topics(MarkerTopics()) {}
 
 options::Number GhostOpacity() { return {0.35, {0, 1}}; }
 
@@ -396,6 +435,9 @@ void ViewOptions::List(options::OptionList& option) {
   trails.List(option);
   ListGhost(option, ghost, ghost_opacity);
   option("robot", robot, kRobotHelp);
+  option("marker_topics", marker_topics,
+         "topics of a bag to show beside its markers: points, poses, paths, wrenches, laser scans "
+         "and point clouds (docs/ros.md)");
   for (const char* name : {"dpi", "text_pt"}) {
     option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
   }

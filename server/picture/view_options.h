@@ -108,19 +108,23 @@ options::Number GhostOpacity();
 /// Lists --ghost and --ghost_opacity. They are borrowed.
 void ListGhost(options::OptionList& option, GhostValue& ghost, options::Number& opacity);
 
-/// A robot's URDF and where its root stands on the floor.
+/// A robot's URDF, and where it is: it stands on the floor, or frames of TF have its links.
 struct RobotPlace {
-  std::string file;
+  std::string file;       // "": the URDF is in `parameter`
+  std::string parameter;  // of the ROS graph; "" with a file
   struct Place {
-    double x = 0, y = 0, yaw = 0;  // m, m, rad; world
+    double x = 0, y = 0, yaw = 0;  // of the root, m, m, rad; world
   };
-  std::optional<Place> place;  // none: beside the people
+  std::optional<Place> place;            // none, and no prefix: beside the people
+  std::optional<std::string> tf_prefix;  // of its frames in TF; none: it stands
 };
 
 inline constexpr char kRobotHelp[] =
-    "robot that stands on the floor beside the people; may be repeated";
+    "robot beside the people: on the floor, or moved by TF (of a bag, or of ROS in serve); may be "
+    "repeated";
 
-/// FILE.urdf or FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m, degrees), once per robot.
+/// FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m, degrees): it stands. FILE.urdf@tf or
+/// FILE.urdf@tf:PREFIX, ros:PARAMETER or ros:PARAMETER@tf:PREFIX: TF moves it. Once per robot.
 class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
  public:
   RobotsValue() : ValueOf({}) {}
@@ -133,6 +137,8 @@ class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
   std::string Expected() const override;
   std::vector<std::filesystem::path> Files() const override;
   void SetFolder(const std::filesystem::path& folder) override;
+  /// Those that stand.
+  RobotsValue WithoutMoving() const;
 
  private:
   std::vector<std::string> texts_;
@@ -167,6 +173,7 @@ struct ViewOptions {
   GhostValue ghost;
   options::Number ghost_opacity;
   RobotsValue robot;
+  options::Text marker_topics;
 
   void List(options::OptionList& option);
 };

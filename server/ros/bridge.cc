@@ -26,6 +26,7 @@
 #include "server/ros/master_registration.h"
 #include "server/ros/names.h"
 #include "server/ros/node_topics.h"
+#include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/ros_clock.h"
 #include "server/ros/stamp.h"
@@ -95,9 +96,8 @@ class InWallTime : public InputSink {
     }
     sink_.OnMeasurements(character, in_wall_time);
   }
-  void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override {
-    sink_.OnMarkers(markers);
-  }
+  void OnMarkers(const MarkerList& markers) override { sink_.OnMarkers(markers); }
+  void OnRobots(const RobotList& robots) override { sink_.OnRobots(robots); }
   void OnMark(const std::string& text) override { sink_.OnMark(text); }
   void OnViewListeners(int count) override { sink_.OnViewListeners(count); }
 
@@ -154,6 +154,7 @@ class Bridge : public RosBridge {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
     if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
+    if (robots_in_) robots_in_->Deliver(MonotonicNanos(), is_stale_ ? 0 : shown_stamp_nanos_, sink);
   }
 
   void Publish(const SceneState& state) override {
@@ -198,6 +199,7 @@ class Bridge : public RosBridge {
 
   void PublishLive(const SceneState& state) {
     last_live_number_ = state.number;
+    shown_stamp_nanos_ = state.stamp_nanos;
     for (const PersonState& person : state.people) {
       Outlet& outlet = OutletOf(person);
       outlet.seen_in_number = state.number;
@@ -220,6 +222,11 @@ class Bridge : public RosBridge {
     return std::make_shared<MarkerInbox>(std::move(topics), config_.reference_frame, transforms_);
   }
 
+  std::shared_ptr<RobotInbox> MakeRobotInbox() const {
+    if (config_.robots.empty()) return nullptr;
+    return std::make_shared<RobotInbox>(config_.robots, config_.reference_frame, transforms_);
+  }
+
   InputWiring MakeWiring() {
     InputWiring wiring;
     wiring.queue = &queue_;
@@ -232,6 +239,7 @@ class Bridge : public RosBridge {
       return transforms_->Add(message, is_static);
     };
     wiring.markers = markers_in_;
+    wiring.robots = robots_in_;
     wiring.on_mark = [this](const std::string& text) { marks_in_.push_back(text); };
     if (!config_.with_view) return wiring;
     wiring.make_view = [this](const ros::NodeHandle& node) {
@@ -340,6 +348,7 @@ class Bridge : public RosBridge {
   std::vector<std::string> marks_in_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
   const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
+  const std::shared_ptr<RobotInbox> robots_in_ = MakeRobotInbox();         // null: no robots
   MasterRegistration registration_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
@@ -348,6 +357,7 @@ class Bridge : public RosBridge {
   std::map<int, Outlet> outlets_;  // by character
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
+  std::int64_t shown_stamp_nanos_ = 0;  // of the newest live state, in the graph's time
   int jumps_ = 0;  // of clock_, that were noticed
   bool waits_for_clock_ = false;
 };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/force_inputs.h"
+#include "core/graph_view.h"
 #include "core/mesh_files.h"
 #include "core/scene_marker.h"
 #include "core/scene_state.h"
@@ -46,6 +47,7 @@ struct BridgeConfig {
   /// Why a hand load is rejected, "" if it is accepted. Null: all are accepted.
   std::function<std::string(const HandLoad&)> check_hand_load;
   std::string markers;     // topics of external markers, comma-separated
+  std::vector<GraphRobot> robots;
   bool with_view = false;  // advertises `~view/image_raw`; its owner must render it
 };
 
@@ -121,7 +123,9 @@ class InputSink {
   virtual void OnHandLoad(int character, const HandLoad& load) = 0;
   virtual void OnMeasurements(int character, const Measurements& measured) = 0;
   /// All current external markers, in the world frame; called when the list has changed.
-  virtual void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& /*markers*/) {}
+  virtual void OnMarkers(const MarkerList& /*markers*/) {}
+  /// All robots that the graph moves, in the world frame; called when one has moved.
+  virtual void OnRobots(const RobotList& /*robots*/) {}
   /// A text on `~mark`: what the newest sample is to be marked with.
   virtual void OnMark(const std::string& /*text*/) {}
   /// The number of subscribers of the view; each new one needs a picture at once.

@@ -50,6 +50,7 @@ constexpr char kDescription[] = "robot_description";
 // A stream may change the body with every sample. Each one that is described has its meshes
 // written, so the newest one follows after this time.
 constexpr std::int64_t kDescribeEveryNanos = kNanosPerSecond;
+constexpr std::int64_t kReadRobotsEveryNanos = 3 * kNanosPerSecond;
 
 // A parameter of a launch file has a type, an argument does not: text that is a number becomes one.
 XmlRpcValue Typed(const std::string& text) {
@@ -168,6 +169,7 @@ BridgeStatus MasterRegistration::status() const {
   };
   add("", first_topics_.get());
   if (wiring_.markers) status.inputs.merge(wiring_.markers->counters());
+  if (wiring_.robots) status.inputs.merge(wiring_.robots->counters());
   for (const auto& [character, slot] : slots_) {
     if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
   }
@@ -212,6 +214,8 @@ void MasterRegistration::RegisterRegularly() {
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
       markers_.clear();
+      joint_states_.clear();
+      robots_due_nanos_ = 0;
       marks_.reset();
     }
     if (!node_) Start();
@@ -228,6 +232,7 @@ void MasterRegistration::RegisterRegularly() {
     if (is_known) master_forgot_us_ = false;
     was_registered_ = true;
     SetParameters();
+    ReadRobots();
   } while (WaitForNext());
 }
 
@@ -311,14 +316,38 @@ void MasterRegistration::Subscribe() {
   if (wiring_.markers && markers_.empty()) {
     markers_ = SubscribeMarkers(*node_, *wiring_.queue, wiring_.markers);
   }
+  if (wiring_.robots && joint_states_.empty()) {
+    joint_states_ = SubscribeJointStates(*node_, *wiring_.queue, wiring_.robots);
+  }
   if (!marks_) marks_ = SubscribeMarks();
-  bool wants_transforms = wiring_.markers != nullptr;
+  bool wants_transforms = wiring_.markers != nullptr || wiring_.robots != nullptr;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     wants_transforms = wants_transforms || wants_transforms_;
   }
   if (!wants_transforms || !transforms_.empty()) return;
   transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};
+}
+
+// RViz reads a description when the display is enabled; here a robot that is started later, or
+// again, is shown without a click.
+void MasterRegistration::ReadRobots() {
+  const std::int64_t now = MonotonicNanos();
+  if (!wiring_.robots || now < robots_due_nanos_) return;
+  robots_due_nanos_ = now + kReadRobotsEveryNanos;
+  for (std::size_t i = 0; i < wiring_.robots->size(); ++i) {
+    const std::string parameter = wiring_.robots->ParameterOf(i);
+    if (parameter.empty()) continue;
+    XmlRpcValue arguments;
+    arguments[0] = parameter;
+    MasterReply set = master_.Call("getParam", arguments);
+    if (!set.problem.empty()) wiring_.robots->SetProblem(i, set.problem);
+    if (set.code == MasterReply::Code::kNoAnswer) return;
+    const bool is_text = set.code == MasterReply::Code::kGood &&
+                         set.value.getType() == XmlRpcValue::TypeString;
+    wiring_.robots->SetDescription(
+        i, is_text ? std::optional(static_cast<std::string&>(set.value)) : std::nullopt);
+  }
 }
 
 ros::Subscriber MasterRegistration::SubscribeMarks() {
@@ -392,7 +421,6 @@ void MasterRegistration::SetParameters() {
 
 // Whether another program has set it. What a Kinescope has written is taken for our own.
 bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
-  constexpr std::size_t kBeginning = 400;  // bytes, in which a URDF of ours says so
   XmlRpcValue arguments;
   arguments[0] = ros::names::resolve(parameter);
   MasterReply has = master_.Call("hasParam", arguments);
@@ -403,8 +431,7 @@ bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
   if (set.code == MasterReply::Code::kNoAnswer && set.problem.empty()) answers = false;
   if (set.code != MasterReply::Code::kGood) return true;  // one that is too large, for example
   if (set.value.getType() != XmlRpcValue::TypeString) return true;
-  const auto& text = static_cast<std::string&>(set.value);
-  return text.substr(0, kBeginning).find(urdf::kWrittenByKinescope) == std::string::npos;
+  return !urdf::IsWrittenByKinescope(static_cast<std::string&>(set.value));
 }
 
 // Whether a Kinescope that runs beside this one has its person in it.

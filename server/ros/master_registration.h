@@ -28,6 +28,7 @@
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
 #include "server/ros/node_topics.h"
+#include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/running.h"
 
@@ -47,6 +48,7 @@ struct InputWiring {
   /// Of other nodes; returns how many transforms it refuses.
   std::function<int(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
   std::shared_ptr<MarkerInbox> markers;                  // null: no marker topics
+  std::shared_ptr<RobotInbox> robots;                    // null: no robots
   std::function<void(const std::string& text)> on_mark;  // of `~mark`
   std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)>
       make_view;  // null: no view
@@ -99,6 +101,7 @@ class MasterRegistration {
   void AdvertiseMissing();
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
+  void ReadRobots();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
   void CountRefused(const char* topic, const char* kind);  // on the thread of the queue
@@ -151,6 +154,8 @@ class MasterRegistration {
   std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
+  std::vector<ros::Subscriber> joint_states_;         // registered at this master
+  std::int64_t robots_due_nanos_ = 0;                 // monotonic clock
   std::optional<ros::Subscriber> marks_;              // registered at this master
   std::map<std::string, std::string> description_names_;  // by prefix, at this master
   std::map<std::string, Description> described_;          // by name of the parameter

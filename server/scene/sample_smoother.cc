@@ -16,8 +16,8 @@ void SampleSmoother::OnObjects(const ObjectsSample& sample) {
   PassOn();
 }
 
-void SampleSmoother::OnRecordedMarkers(const MarkerList& markers) {
-  waiting_.push_back({markers, false});
+void SampleSmoother::OnSurroundings(const RecordedSurroundings& all) {
+  waiting_.push_back({all, false});
   PassOn();
 }
 
@@ -61,8 +61,8 @@ void SampleSmoother::PassOn() {
       }
     } else if (const auto* const character = std::get_if<Character>(&next.event)) {
       to_.OnCharacter(*character);
-    } else if (const auto* const markers = std::get_if<MarkerList>(&next.event)) {
-      to_.OnRecordedMarkers(*markers);
+    } else if (const auto* const surroundings = std::get_if<RecordedSurroundings>(&next.event)) {
+      to_.OnSurroundings(*surroundings);
     } else {
       to_.OnObjects(std::get<ObjectsSample>(next.event));
     }

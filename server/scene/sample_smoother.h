@@ -19,7 +19,7 @@ class SmoothSampleSink {
   /// `motion`: null where the sample has none.
   virtual void OnSample(const BodySample& sample, const loads::BodyMotion* motion) = 0;
   virtual void OnObjects(const ObjectsSample& sample) = 0;
-  virtual void OnRecordedMarkers(const MarkerList& markers) = 0;
+  virtual void OnSurroundings(const RecordedSurroundings& all) = 0;
 };
 
 class SampleSmoother : public SampleSink {
@@ -29,13 +29,13 @@ class SampleSmoother : public SampleSink {
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
-  void OnRecordedMarkers(const MarkerList& markers) override;
+  void OnSurroundings(const RecordedSurroundings& all) override;
   /// No sample follows: passes everything on.
   void End();
 
  private:
   struct Waiting {
-    std::variant<Character, BodySample, ObjectsSample, MarkerList> event;
+    std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings> event;
     bool has_motion = false;
   };
   struct Person {

@@ -212,7 +212,7 @@ void SceneBuilder::Publish(Liveness liveness) {
   current_.liveness = liveness;
   current_.number += 1;
   current_.source = source_;
-  if (current_.floor_z != robots_floor_z_) PlaceRobots();
+  if (!robots_.empty() && current_.floor_z != robots_floor_z_) PlaceRobots();
   const auto scene = std::make_shared<SceneState>(current_);
   scene->people.reserve(people_.size());
   for (const auto& [id, person] : people_) {
@@ -247,17 +247,31 @@ void SceneBuilder::Publish(Liveness liveness) {
 
 void SceneBuilder::SetRobots(std::vector<RobotState> robots) {
   robots_ = std::move(robots);
-  PlaceRobots();
+  if (!robots_.empty()) PlaceRobots();
 }
 
+void SceneBuilder::SetMovingRobots(RobotList robots) {
+  node_robots_ = std::move(robots);
+  PlaceRobots();
+  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+}
+
+// Where a robot that moves has its links is part of each state, and no news of its own.
 void SceneBuilder::PlaceRobots() {
-  if (robots_.empty()) return;
-  current_.robots.clear();
-  for (const RobotState& robot : robots_) {
-    current_.robots.push_back(Lifted(robot, current_.floor_z));
+  std::vector<RobotState> robots;
+  for (const RobotState& robot : robots_) robots.push_back(Lifted(robot, current_.floor_z));
+  for (const RobotList* const list : {&recorded_.robots, &node_robots_}) {
+    for (const auto& robot : *list) robots.push_back(*robot);
   }
+  const bool are_the_same =
+      current_.floor_z == robots_floor_z_ &&
+      std::equal(robots.begin(), robots.end(), current_.robots.begin(), current_.robots.end(),
+                 [](const RobotState& a, const RobotState& b) {
+                   return a.model == b.model && a.moves == b.moves && a.problem == b.problem;
+                 });
+  current_.robots = std::move(robots);
   robots_floor_z_ = current_.floor_z;
-  current_.surroundings += 1;
+  if (!are_the_same) current_.surroundings += 1;
 }
 
 void SceneBuilder::SetMarkers(MarkerList markers) {
@@ -266,13 +280,15 @@ void SceneBuilder::SetMarkers(MarkerList markers) {
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 
-void SceneBuilder::OnRecordedMarkers(const MarkerList& markers) {
-  recorded_markers_ = markers;
-  PlaceMarkers();
+void SceneBuilder::OnSurroundings(const RecordedSurroundings& all) {
+  const bool has_new_markers = all.markers != recorded_.markers;
+  recorded_ = all;
+  if (has_new_markers) PlaceMarkers();
+  PlaceRobots();
 }
 
 void SceneBuilder::PlaceMarkers() {
-  current_.markers = recorded_markers_;
+  current_.markers = recorded_.markers;
   current_.markers.insert(current_.markers.end(), node_markers_.begin(), node_markers_.end());
   current_.surroundings += 1;
 }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "server/loads/load_settings.h"
@@ -32,6 +33,7 @@ struct SceneOptions : ModelSettings {
   loads::LoadSettings loads;      // with the same sex as `body`
   double stale_secs = 0.5;        // time without samples after which the stream is stale, s
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
+  GraphView bag;                  // what SceneReader shows of a bag
   /// Measured forces of a recording, on the first person; in place of SetMeasurements().
   std::optional<wrenches::WrenchSettings> wrenches;
   /// Changed bodies are made on a thread of their own and used when they are ready, so that they
@@ -59,7 +61,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Of a recording: `motion` is filtered without lag; null: as of a stream.
   void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
   void OnObjects(const ObjectsSample& sample) override;
-  void OnRecordedMarkers(const MarkerList& markers) override;
+  void OnSurroundings(const RecordedSurroundings& all) override;
 
   /// Valid from the next sample on. @pre FindDefect(settings) is ""
   void SetLoads(const loads::LoadSettings& settings);
@@ -83,6 +85,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Sets the markers of other nodes, beside those of the recording, from the next sample on; at
   /// once while no samples arrive.
   void SetMarkers(MarkerList markers);
+
+  /// Sets the robots that other nodes move, in the world frame; as SetMarkers().
+  void SetMovingRobots(RobotList robots);
 
   /// How long the next samples waited in this machine before they were processed, ns; part of the
   /// states.
@@ -147,7 +152,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   HeldHeading view_heading_;
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
-  MarkerList recorded_markers_, node_markers_;
+  RecordedSurroundings recorded_;
+  MarkerList node_markers_;
+  RobotList node_robots_;
   std::vector<RobotState> robots_;  // on z = 0
   double robots_floor_z_ = 0;       // where those of current_ stand
 };

@@ -19,8 +19,9 @@ namespace kinescope::app {
 namespace {
 
 // The built-in subject is as tall as the person is said to be.
-SourceSettings WithHeight(SourceSettings settings, const SceneOptions& options) {
+SourceSettings SettingsFor(const SceneOptions& options, SourceSettings settings) {
   settings.subject_height_m = options.height_m;
+  settings.bag = options.bag;
   return settings;
 }
 
@@ -53,7 +54,7 @@ SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
 }
 
 SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
-    : SceneReader(OpenSource(url, WithHeight({}, options)), url, options) {
+    : SceneReader(OpenSource(url, SettingsFor(options, {})), url, options) {
   if (source_->is_live()) {
     throw UsageError("source '" + url +
                      "': this command cannot read a live stream; record the stream first "
@@ -63,7 +64,7 @@ SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
 
 SceneReader SceneReader::OfAnySource(const std::string& url, const SceneOptions& options,
                                      const SourceSettings& settings) {
-  return SceneReader(OpenSource(url, WithHeight(settings, options)), url, options);
+  return SceneReader(OpenSource(url, SettingsFor(options, settings)), url, options);
 }
 
 // What has arrived before the stop is read.
@@ -96,8 +97,8 @@ void SceneReader::FanOut::OnObjects(const ObjectsSample& sample) {
   for (SmoothSampleSink* const each : to) each->OnObjects(sample);
 }
 
-void SceneReader::FanOut::OnRecordedMarkers(const MarkerList& markers) {
-  for (SmoothSampleSink* const each : to) each->OnRecordedMarkers(markers);
+void SceneReader::FanOut::OnSurroundings(const RecordedSurroundings& all) {
+  for (SmoothSampleSink* const each : to) each->OnSurroundings(all);
 }
 
 std::shared_ptr<const SceneState> SceneReader::Next() {

@@ -72,7 +72,7 @@ class SceneReader {
     void OnCharacter(const Character& character) override;
     void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
     void OnObjects(const ObjectsSample& sample) override;
-    void OnRecordedMarkers(const MarkerList& markers) override;
+    void OnSurroundings(const RecordedSurroundings& all) override;
     std::vector<SmoothSampleSink*> to;
   };
 

@@ -18,6 +18,13 @@
 namespace kinescope::app {
 namespace {
 
+void CheckNeedsNoBag(const std::string& url, const SourceSettings& settings) {
+  if (settings.bag.is_empty()) return;
+  throw SourceError("source '" + url +
+                    "': is no ROS bag, so it has neither topics (--marker_topics) nor transforms "
+                    "that move a robot (--robot=FILE@tf)");
+}
+
 // Opened once only: it may be a pipe.
 std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& settings) {
   std::error_code ignored;
@@ -30,7 +37,9 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
   }
   InputFile file = OpenInputFile(path);
   const std::string name = NameOfInput(path);
-  switch (mvn::KindOf(file.head())) {
+  const mvn::RecordingKind kind = mvn::KindOf(file.head());
+  if (kind != mvn::RecordingKind::kRosBag) CheckNeedsNoBag(path, settings);
+  switch (kind) {
     case mvn::RecordingKind::kPcap:
     case mvn::RecordingKind::kDatagrams:
       return mvn::OpenStream(mvn::OpenRecording(std::move(file), name), settings.stream);
@@ -38,7 +47,7 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
     case mvn::RecordingKind::kRosBag:
       if (path == "-")
         throw SourceError("a ROS bag cannot be read from a pipe; save it to a file first");
-      return ros_bridge::OpenBag(path);
+      return ros_bridge::OpenBag(path, settings.bag);
     case mvn::RecordingKind::kEmpty:
     case mvn::RecordingKind::kUnknown: break;
   }
@@ -47,7 +56,16 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
 
 }  // namespace
 
+bool IsBag(const std::string& url) {
+  std::error_code ignored;
+  if (KindOfSource(url) != SourceKind::kFile || !std::filesystem::is_regular_file(url, ignored)) {
+    return false;
+  }
+  return mvn::KindOf(OpenInputFile(url).head()) == mvn::RecordingKind::kRosBag;
+}
+
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
+  if (KindOfSource(url) != SourceKind::kFile) CheckNeedsNoBag(url, settings);
   switch (KindOfSource(url)) {
     case SourceKind::kUdp:
     case SourceKind::kTcp:

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/graph_view.h"
 #include "core/source.h"
 #include "server/mvn/open.h"
 #include "server/source/scheme.h"
@@ -19,13 +20,18 @@ struct SourceSettings {
   double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:` and `pose:`
   double subject_height_m = urdf::kDefaultHeight;
   mvn::StreamSettings stream;        // for sources of datagrams
+  GraphView bag;           // for bags
   mvn::DatagramSink* tap = nullptr;  // receives the datagrams of a live stream, too; borrowed
 };
 
 /// `demo:lift`, `pose:right_elbow=90`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`,
 /// `take.bin.xz`, `walk.bag`, `ros:`. The format of a file is detected by its content.
-/// @throws SourceError with the URL and the expected form or the remedy.
+/// @throws SourceError with the URL and the expected form or the remedy; also where `settings.bag`
+/// asks for what only a bag has.
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings = {});
+
+/// Whether `url` names a file that is a ROS bag. A pipe is none.
+[[nodiscard]] bool IsBag(const std::string& url);
 
 /// Opens a file or the built-in subject at its true rate: samples are delivered when they are due,
 /// stamped with the current time. `loop` starts over at the end; counters and time continue.

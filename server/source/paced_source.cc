@@ -76,7 +76,7 @@ void PacedSource::Enqueue(Sample sample) {
   sample.counter = track.counter.Add(sample.counter);
   sample.time_code_millis += round_offset_ / kNanosPerMilli;
   EnqueueCharacter(sample.character, played);
-  if (markers_) queue_.emplace(played, *std::exchange(markers_, std::nullopt));
+  if (surroundings_) queue_.emplace(played, *std::exchange(surroundings_, std::nullopt));
   queue_.emplace(played, std::move(sample));
 }
 
@@ -123,8 +123,8 @@ void PacedSource::EndRound() {
 
 void PacedSource::HandOn(Event& event, std::int64_t played, SampleSink& sink) {
   if (const auto* character = std::get_if<Character>(&event)) return sink.OnCharacter(*character);
-  if (const auto* markers = std::get_if<MarkerList>(&event)) {
-    return sink.OnRecordedMarkers(*markers);
+  if (const auto* surroundings = std::get_if<RecordedSurroundings>(&event)) {
+    return sink.OnSurroundings(*surroundings);
   }
   const auto as_if_now = [&](auto& sample) {
     sample.stamp_nanos = start_wall_ + played;

@@ -50,7 +50,7 @@ class PacedSource : public Source, private SampleSink {
 
  private:
   // Read but not due yet. In queued samples the stamp is the played time.
-  using Event = std::variant<Character, BodySample, ObjectsSample, MarkerList>;
+  using Event = std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings>;
 
   // One person, or group of objects, by id.
   struct Track {
@@ -62,7 +62,7 @@ class PacedSource : public Source, private SampleSink {
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
-  void OnRecordedMarkers(const MarkerList& markers) override { markers_ = markers; }
+  void OnSurroundings(const RecordedSurroundings& all) override { surroundings_ = all; }
 
   template <class Sample>
   void Enqueue(Sample sample);
@@ -88,7 +88,7 @@ class PacedSource : public Source, private SampleSink {
   std::multimap<std::int64_t, Event> queue_;  // by played time; entries with equal times in the
                                               // order of reading
   std::map<int, Character> characters_;       // by id, until their next sample gives the time
-  std::optional<MarkerList> markers_;         // until the next sample gives the time
+  std::optional<RecordedSurroundings> surroundings_;  // until the next sample gives the time
   std::map<int, Track> tracks_;
   bool read_all_ = false;
   std::exception_ptr failure_;  // why reading ended early

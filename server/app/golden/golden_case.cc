@@ -17,6 +17,7 @@
 #include "server/options/yaml_options.h"
 #include "server/picture/render_planner.h"
 #include "server/picture/scene_additions.h"
+#include "server/picture/moving_robots.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 #include "server/source/source_identity.h"
@@ -281,7 +282,8 @@ std::vector<InputFact> InputsOf(const GoldenCase& golden_case) {
 void Draw(const GoldenCase& golden_case, render::Renderer& renderer,
           const std::function<void(GoldenDrawing)>& on_drawing) {
   if (!golden_case.page->empty()) return on_drawing(DrawPageOf(golden_case));
-  const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
+  SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
+  options.bag = ToBagView(golden_case.view);
   if (golden_case.seconds) return DrawClip(golden_case, options, renderer, on_drawing);
   RenderPlanner planner(golden_case.view, {}, options);
   if (planner.needs_prescan()) {

@@ -19,11 +19,18 @@
 #include "server/app/render/moments.h"
 #include "server/app/render/render_tasks.h"
 #include "server/app/render/resume_check.h"
+#include "server/picture/moving_robots.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
+
+SceneOptions PeopleOf(const RenderOptions& options) {
+  SceneOptions people = ToShownSceneOptions(options.person, options.loads);
+  people.bag = ToBagView(options.view);
+  return people;
+}
 
 // Reads the source once and hands its scenes to the tasks that need them.
 class RenderRun {
@@ -34,7 +41,7 @@ class RenderRun {
         plan_(plan),
         settings_(settings),
         pool_(pool),
-        people_(ToShownSceneOptions(options.person, options.loads)),
+        people_(PeopleOf(options)),
         reader_(plan.source, people_),
         grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
         provenance_(options, plan.source, pool.info()),

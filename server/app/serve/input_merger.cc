@@ -45,10 +45,6 @@ void InputMerger::OnMeasurements(int character, const Measurements& measured) {
   builder_.SetMeasurements(character, measured);
 }
 
-void InputMerger::OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) {
-  builder_.SetMarkers(markers);
-}
-
 void InputMerger::OnMark(const std::string& text) {
   if (on_mark_) on_mark_(text);
 }

@@ -56,14 +56,15 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override { builder_.OnObjects(sample); }
-  void OnRecordedMarkers(const MarkerList& markers) override {
-    builder_.OnRecordedMarkers(markers);
+  void OnSurroundings(const RecordedSurroundings& all) override {
+    builder_.OnSurroundings(all);
   }
 
  private:
   void OnHandLoad(int character, const HandLoad& load) override;
   void OnMeasurements(int character, const Measurements& measured) override;
-  void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override;
+  void OnMarkers(const MarkerList& markers) override { builder_.SetMarkers(markers); }
+  void OnRobots(const RobotList& robots) override { builder_.SetMovingRobots(robots); }
   void OnViewListeners(int count) override;
   void OnMark(const std::string& text) override;
   void Process(const BodySample& sample, std::int64_t waited_nanos);

@@ -19,6 +19,7 @@
 #include "server/loads/hand_loads.h"
 #include "server/mvn/open.h"
 #include "server/options/text.h"
+#include "server/picture/moving_robots.h"
 #include "server/ros/source/graph_source.h"
 
 namespace kinescope::app {
@@ -93,7 +94,7 @@ ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
   clips.view.style = options.style;
   clips.view.loads = options.loads_shown;
   clips.view.trails = options.trails;
-  clips.view.robot = options.robot;
+  clips.view.robot = options.robot.WithoutMoving();  // past states do not have the others
   clips.view.ghost = options.ghost;
   clips.view.ghost_opacity = options.ghost_opacity;
   clips.backend = options.backend;
@@ -195,6 +196,27 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   return config;
 }
 
+// A bag that is played has transforms and topics of its own; what else moves a robot is the graph.
+void AddGraphView(const ServeOptions& options, ServeConfig& config) {
+  const bool is_bag = IsBag(config.source_url);
+  std::vector<GraphRobot> robots = ReadMovingRobots(*options.robot);
+  if (is_bag) config.source.bag.topics = options::SplitItems(*options.marker_topics);
+  std::vector<GraphRobot> of_graph;
+  for (GraphRobot& robot : robots) {
+    const bool is_of_bag = is_bag && robot.parameter.empty();
+    (is_of_bag ? config.source.bag.robots : of_graph).push_back(std::move(robot));
+  }
+  if (config.ros) {
+    config.ros->markers = *options.marker_topics;
+    config.ros->robots = std::move(of_graph);
+  } else if (!of_graph.empty()) {
+    throw UsageError(
+        "--robot=" + options.robot.ToText() +
+        ": a robot is moved by the transforms of a ROS graph or of a bag; this server has neither "
+        "(--ros, --source)");
+  }
+}
+
 }  // namespace
 
 ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
@@ -225,6 +247,7 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   http::CheckConfig(*config.page);
   config.backend = options.backend;
   config.robots = *options.robot;
+  AddGraphView(options, config);
   config.ghost = options.ghost;
   config.ghost_opacity = *options.ghost_opacity;
   if (*options.pictures) config.pictures = pictures;
@@ -234,7 +257,6 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
     config.clip_options = PictureOptionsOf(config.clips->view, config.clips->backend);
   }
   if (!config.ros) return config;
-  config.ros->markers = *options.marker_topics;
   if (!*options.ros_view) return config;
   if (!config.pictures) {
     config.notes.emplace_back("~view/image_raw is off because --pictures is off");

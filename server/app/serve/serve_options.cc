@@ -12,12 +12,12 @@
 #include "core/system/utf8.h"
 #include "server/marks/mark_book.h"
 #include "server/options/text.h"
+#include "server/picture/ros_names.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMaxMarkerTopics = 16;
 constexpr double kMinFactor = 1e-6, kMaxFactor = 1e6;
 
 options::Choice<std::string>::Words Words(const std::vector<std::string>& names) {
@@ -26,28 +26,7 @@ options::Choice<std::string>::Words Words(const std::vector<std::string>& names)
   return words;
 }
 
-// As roscpp has them: letters, digits, _ and /; a topic may also begin with / or ~.
-bool IsName(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '/';
-  });
-}
-
-bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
-
-bool IsTopicName(const std::string& text) {
-  const bool is_private = !text.empty() && text.front() == '~';
-  const std::string name = is_private ? text.substr(1) : text;
-  return IsName(name) &&
-         (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
-}
-
 bool IsTopicNameOrEmpty(const std::string& text) { return text.empty() || IsTopicName(text); }
-
-bool AreTopicNames(const std::string& text) {
-  const std::vector<std::string> names = options::SplitItems(text);
-  return names.size() <= kMaxMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
-}
 
 bool AreMarkNames(const std::string& text) {
   constexpr std::size_t kLongest = 40;  // characters, so that a button has room for it
@@ -103,7 +82,7 @@ ServeOptions::ServeOptions()
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
       picture_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}),
-      marker_topics("", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames),
+      marker_topics(MarkerTopics()),
       ros_view(true),
       ros_view_camera(CamerasValue(1)),
       ros_view_size({kDefaultPictureWidth, kDefaultPictureHeight}),

@@ -10,8 +10,8 @@
 
 #include "core/system/errors.h"
 #include "server/ros/raw_message.h"
-#include "server/ros/source/bag_markers.h"
 #include "server/ros/source/bag_messages.h"
+#include "server/ros/source/bag_surroundings.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/motion_joiner.h"
 #include "server/ros/source/transform_people.h"
@@ -51,7 +51,11 @@ struct Appearances {
 
 class BagSource : public Source {
  public:
-  explicit BagSource(const std::string& path) : name_(path), messages_(OpenBagFile(path), IsUsed) {
+  BagSource(const std::string& path, const GraphView& view)
+      : name_(path),
+        surroundings_(view),
+        messages_(OpenBagFile(path),
+                  [this](const BagConnection& connection) { return IsUsed(connection); }) {
     ReadNames();
     world_ = FindWorld();
   }
@@ -67,9 +71,9 @@ class BagSource : public Source {
   static bool HasTransforms(const BagConnection& connection) {
     return IsMoving(connection.topic) || IsStatic(connection.topic);
   }
-  static bool IsUsed(const BagConnection& connection) {
+  bool IsUsed(const BagConnection& connection) const {
     return HasTransforms(connection) || IsLinkStates(connection) ||
-           BagMarkers::IsMarkers(connection);
+           surroundings_.IsUsed(connection);
   }
 
   void ReadNames();
@@ -85,13 +89,13 @@ class BagSource : public Source {
   State End();
 
   const std::string name_;
+  BagSurroundings surroundings_;
   BagMessages messages_;
   tf2_msgs::TFMessage message_;
   xsens_mvn_ros_msgs::LinkStateArray link_states_;
   TransformPeople people_{0};
   MotionJoiner joiner_;
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
-  BagMarkers markers_;
   std::string world_;
   bool has_ended_ = false;
   SourceCounters counters_;
@@ -212,6 +216,9 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
 
 Source::State BagSource::End() {
   has_ended_ = true;
+  for (const std::string& problem : surroundings_.Problems()) {
+    spdlog::warn("bag '{}': {}", name_, problem);
+  }
   people_.End(counters_);
   CheckEnding(messages_);
   if (messages_.ending().kind == BagReader::Ending::Kind::kTruncated) {
@@ -227,18 +234,18 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   ++counters_.datagrams;
   counters_.bytes += message.size;
   if (IsLinkStates(*message.connection)) return TakeLinkStates(message, sink);
-  if (!HasTransforms(*message.connection)) return markers_.Take(message, counters_);
+  if (!HasTransforms(*message.connection)) return surroundings_.Take(message, counters_);
   if (const char* const defect = Decode(message)) {
     ++counters_.rejected[defect];
     return;
   }
   const bool is_static = IsStatic(message.connection->topic);
-  markers_.AddTransforms(message_, is_static);
+  surroundings_.AddTransforms(message_, is_static);
   if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {
     joiner_.SetSink(&sink);
-    markers_.Update(message.recorded_nanos, world_, name_, joiner_);
+    surroundings_.Update(message.recorded_nanos, world_, name_, joiner_);
     people_.Take(message_, {message.recorded_nanos, 0}, counters_, joiner_);
   }
 }
@@ -260,7 +267,7 @@ void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
     ++counters_.ignored["topic " + message.connection->topic];
     return;
   }
-  markers_.Update(message.recorded_nanos, world_, name_, sink);
+  surroundings_.Update(message.recorded_nanos, world_, name_, sink);
   person->second.Take(link_states_, {message.recorded_nanos, 0}, counters_, sink);
 }
 
@@ -289,8 +296,8 @@ const char* BagSource::Decode(const BagMessage& message) {
 
 }  // namespace
 
-std::unique_ptr<Source> OpenBag(const std::string& path) {
-  return std::make_unique<BagSource>(path);
+std::unique_ptr<Source> OpenBag(const std::string& path, const GraphView& view) {
+  return std::make_unique<BagSource>(path, view);
 }
 
 }  // namespace kinescope::ros_bridge

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/graph_view.h"
 #include "core/source.h"
 
 namespace kinescope::ros_bridge {
@@ -37,13 +38,14 @@ namespace kinescope::ros_bridge {
 ///   (skeleton_watch.h).
 /// - A bag without people on /tf has one person for each topic of LinkStateArray, whatever its
 /// name.
-/// - Markers of other nodes are delivered with the samples (bag_markers.h).
+/// - Markers of other nodes, and what `view` names, are delivered with the samples
+///   (bag_surroundings.h). Its robots have no parameters: a bag has none.
 /// - counters(): a datagram is a message, or a damaged record; other topics are counted in
 /// `ignored`
 ///   by name when they are passed, unread.
 ///
 /// A source is used by one thread.
 /// @throws SourceError with the file, the error and the remedy; so does Poll().
-std::unique_ptr<Source> OpenBag(const std::string& path);
+[[nodiscard]] std::unique_ptr<Source> OpenBag(const std::string& path, const GraphView& view = {});
 
 }  // namespace kinescope::ros_bridge

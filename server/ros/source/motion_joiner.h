@@ -31,7 +31,7 @@ class MotionJoiner : public SampleSink {
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& objects) override { sink_->OnObjects(objects); }
-  void OnRecordedMarkers(const MarkerList& markers) override { sink_->OnRecordedMarkers(markers); }
+  void OnSurroundings(const RecordedSurroundings& all) override { sink_->OnSurroundings(all); }
 
  private:
   static constexpr std::size_t kMostMessages = 32;  // that no sample has been found for yet

@@ -7,7 +7,7 @@
 
 namespace kinescope::ros_bridge {
 
-std::unique_ptr<Source> OpenBag(const std::string& path) {
+std::unique_ptr<Source> OpenBag(const std::string& path, const GraphView& /*view*/) {
   throw SourceError("bag '" + path +
                     "': this Kinescope was built without ROS and cannot read bags: install the ROS "
                     "packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");

@@ -22,7 +22,7 @@ function assertClose(actual, expected, path = 'state') {
   }
 }
 
-test('a state of two people, gloves and an object is decoded as the server encoded it', () => {
+test('a state of two people, gloves, an object and a robot is decoded as the server encoded it', () => {
   assert.equal(messageKind(state), KIND.state);
   assertClose(decodeState(state), told.state);
 });
@@ -70,6 +70,7 @@ test('a person without links is rejected', () => {
   other.set(new Uint8Array(state.slice(0, HEADER + 64)));
   other[3] = 1;       // people
   other[60] = 0;      // objects
+  other[68] = 0;      // robots
   other.set([0, 0, 0], HEADER + 5);  // links, loads, solids
   other[HEADER + 60] = 0;            // corners
   assert.throws(() => decodeState(other.buffer), /without links/);

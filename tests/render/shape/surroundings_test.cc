@@ -194,5 +194,28 @@ TEST(Surroundings, HaveRobotsWhereTheirLinksAre) {
   EXPECT_TRUE(Glb(writer->Write({}, {robot})).Node("robot arm").is_null()) << "it is nowhere";
 }
 
+TEST(Surroundings, HaveTheLinksOfRobotsThatMoveInTheirOwnFrames) {
+  const auto writer = MakeSurroundingsWriter();
+  RobotState standing = Robot(), moving = Robot();
+  moving.moves = true;
+  moving.problem = "robot 'arm': 1 of 2 links have no frame in TF: hand";
+  for (Eigen::Isometry3d& link : moving.world_from_link) {
+    link.pretranslate(Eigen::Vector3d(0, 2, 0));
+  }
+  const Glb glb(writer->Write({}, {standing, moving, moving}));
+  const nlohmann::json& nodes = glb.document()["nodes"];
+  ASSERT_EQ(nodes.size(), 8u) << "the root, one that stands, two with two links each";
+  ExpectBox(glb.BoxOf(glb.Primitives("robot arm")[0]), {-0.1, -0.1, -0.1}, {0.1, 0.1, 1.05});
+  EXPECT_EQ(nodes[0]["children"], nlohmann::json({1, 2, 5}));
+  EXPECT_EQ(nodes[2]["extras"]["robot"], 0);
+  EXPECT_EQ(nodes[5]["extras"]["robot"], 1);
+  EXPECT_EQ(nodes[2]["children"], nlohmann::json({3, 4}));
+  EXPECT_EQ(nodes[4]["extras"]["link"], 1);
+  const nlohmann::json& mesh = glb.document()["meshes"][nodes[4]["mesh"].get<std::size_t>()];
+  ExpectBox(glb.BoxOf(mesh["primitives"][0]), {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
+  EXPECT_THAT(glb.problems().get<std::vector<std::string>>(),
+              ElementsAre(moving.problem, moving.problem));
+}
+
 }  // namespace
 }  // namespace kinescope::render

@@ -241,6 +241,15 @@ json Describe() {
   state.made_nanos = 5'001'000'000;
   kinescope::testing::Wear(state.people[1]);
   state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
+  RobotState robot;
+  auto drawn = std::make_shared<urdf::RobotModel>();
+  drawn->links.resize(1);
+  drawn->links[0].visuals.resize(1);
+  robot.model = drawn;
+  robot.moves = true;
+  robot.world_from_link = {
+      Eigen::Isometry3d(Eigen::Translation3d(3, 2, 1) * Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5))};
+  state.robots = {robot};
   json people = json::array();
   for (const PersonState& person : state.people) {
     json links = json::array(), loads = json::array();
@@ -328,7 +337,8 @@ json Describe() {
             {"oldestNumber", 12},
             {"people", people},
             {"objects", objects},
-            {"ghosts", json::array()}}},
+            {"ghosts", json::array()},
+            {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {-0.5, 0.5, 0.5, 0.5}}}}}}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},

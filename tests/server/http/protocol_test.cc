@@ -134,7 +134,7 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, ghosts";
   EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
   EXPECT_EQ(in.Get<float>(), -2.5);
-  EXPECT_EQ(in.Get<std::uint32_t>(), 0u) << "reserved";
+  EXPECT_EQ(in.Get<std::uint32_t>(), 0u) << "robots";
   EXPECT_EQ(in.Get<double>(), 5'001'000);
   EXPECT_EQ(in.Get<double>(), 2'000'000);
   EXPECT_EQ(in.Get<double>(), 12);
@@ -196,6 +196,37 @@ TEST(StateMessage, HasReferencePosesAfterTheObjects) {
   const Bytes last(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
   Reader in(last);
   EXPECT_EQ(in.Get<std::int32_t>(), kFirstGhost);
+}
+
+TEST(StateMessage, HasTheDrawnLinksOfRobotsThatMoveAtItsEnd) {
+  SceneState state = Scene();
+  const std::size_t without = EncodeState(state, {0, 1, {}}).size();
+  RobotState robot;
+  auto model = std::make_shared<urdf::RobotModel>();
+  model->links.resize(3);
+  model->links[0].visuals.resize(1);
+  model->links[2].visuals.resize(2);
+  robot.model = model;
+  robot.world_from_link.assign(3, Eigen::Isometry3d::Identity());
+  robot.world_from_link[0].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+  robot.world_from_link[2].pretranslate(Eigen::Vector3d(1, -2, 0.5));
+  state.robots = {robot};
+  EXPECT_EQ(EncodeState(state, {0, 1, {}}).size(), without) << "it stands";
+  state.robots[0].moves = true;
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
+  EXPECT_EQ(bytes[68], 1);
+  const std::size_t size = kRobotHeaderBytes + 2 * kLinkBytes;
+  ASSERT_EQ(bytes.size(), without + size);
+  const Bytes last(bytes.end() - static_cast<std::ptrdiff_t>(size), bytes.end());
+  Reader in(last);
+  EXPECT_EQ(in.Get<std::uint16_t>(), 2);
+  EXPECT_EQ(in.Get<std::uint16_t>(), 0);
+  EXPECT_TRUE(std::isnan(in.GetVector().x())) << "it is nowhere";
+  for (int i = 0; i < 4; ++i) in.Get<float>();
+  EXPECT_EQ(in.GetVector(), Eigen::Vector3d(1, -2, 0.5));
+  EXPECT_EQ(in.Get<float>(), 0);
+  state.robots.assign(300, state.robots[0]);
+  EXPECT_EQ(EncodeState(state, {0, 1, {}}).size(), without + 255 * size);
 }
 
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {

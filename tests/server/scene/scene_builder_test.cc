@@ -71,18 +71,44 @@ TEST(SceneBuilder, StandsRobotsOnTheFloorAndCountsTheChangesBesideThePeople) {
   EXPECT_EQ(built.last().surroundings, before + 1);
 }
 
+TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
+  Built built;
+  auto arm = std::make_shared<RobotState>();
+  arm->model = std::make_shared<urdf::RobotModel>();
+  arm->moves = true;
+  arm->world_from_link = {Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3))};
+  built.builder.OnSurroundings({{}, {arm}});
+  built.builder.OnSample(SampleOf("lift", 0));
+  ASSERT_EQ(built.last().robots.size(), 1u);
+  EXPECT_EQ(built.last().robots[0].world_from_link[0].translation(), Vector3d(1, 2, 3));
+  const std::uint64_t before = built.last().surroundings;
+  EXPECT_GT(before, 0u);
+  auto moved = std::make_shared<RobotState>(*arm);
+  moved->world_from_link[0].pretranslate(Vector3d(0, 0, 1));
+  built.builder.OnSurroundings({{}, {moved}});
+  built.builder.OnSample(SampleOf("lift", 1));
+  EXPECT_EQ(built.last().robots[0].world_from_link[0].translation(), Vector3d(1, 2, 4));
+  EXPECT_EQ(built.last().surroundings, before) << "its shape is the same";
+  auto other = std::make_shared<RobotState>(*arm);
+  other->problem = "a link is nowhere";
+  built.builder.SetMovingRobots({other});
+  built.builder.OnSample(SampleOf("lift", 2));
+  EXPECT_EQ(built.last().robots.size(), 2u) << "of the recording, and of other nodes";
+  EXPECT_EQ(built.last().surroundings, before + 1);
+}
+
 TEST(SceneBuilder, ShowsTheMarkersOfARecordingWithItsSamplesBesideThoseOfOtherNodes) {
   const auto recorded = std::make_shared<const SceneMarker>();
   const auto of_a_node = std::make_shared<const SceneMarker>();
   Built built;
-  built.builder.OnRecordedMarkers({recorded});
+  built.builder.OnSurroundings({{recorded}, {}});
   EXPECT_TRUE(built.states.empty()) << "a picture of no person";
   built.builder.OnSample(SampleOf("lift", 0));
   EXPECT_EQ(built.last().markers, MarkerList{recorded});
   built.builder.SetMarkers({of_a_node});
   built.builder.OnSample(SampleOf("lift", 1));
   EXPECT_EQ(built.last().markers, (MarkerList{recorded, of_a_node}));
-  built.builder.OnRecordedMarkers({});
+  built.builder.OnSurroundings({});
   built.builder.OnSample(SampleOf("lift", 2));
   EXPECT_EQ(built.last().markers, MarkerList{of_a_node});
 }

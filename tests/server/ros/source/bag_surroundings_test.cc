@@ -1,11 +1,14 @@
 // Markers that other nodes published into a bag stand beside the people, as RViz shows them.
-#include "server/ros/source/bag_markers.h"
+#include "server/ros/source/bag_surroundings.h"
 
+#include <geometry_msgs/PointStamped.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/JointState.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "server/ros/markers.h"
@@ -23,6 +26,7 @@ using testing::CapturedLog;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::Pair;
 using testing::RecordingSink;
 using testing::TempFolder;
@@ -65,10 +69,10 @@ struct Recorded : RecordingSink {
   SourceCounters counters;
 };
 
-class BagMarkersTest : public ::testing::Test {
+class BagSurroundingsTest : public ::testing::Test {
  protected:
   // Six samples of a person, and what `write` adds.
-  Recorded Read(const std::function<void(rosbag::Bag&)>& write) const {
+  Recorded Read(const std::function<void(rosbag::Bag&)>& write, const GraphView& view = {}) const {
     const std::string path = folder_ / "markers.bag";
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     for (int n = 0; n < 6; ++n) {
@@ -82,7 +86,7 @@ class BagMarkersTest : public ::testing::Test {
     write(bag);
     bag.close();
     Recorded recorded;
-    const auto source = OpenBag(path);
+    const auto source = OpenBag(path, view);
     while (source->Poll({}, recorded) == Source::State::kMore) {
     }
     recorded.counters = source->counters();
@@ -98,7 +102,81 @@ class BagMarkersTest : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(BagMarkersTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
+GraphRobot Arm(const std::string& prefix = {}) {
+  GraphRobot arm{{}, prefix, {}};
+  arm.robot.name = "arm";
+  arm.robot.model = std::make_shared<urdf::RobotModel>(urdf::ParseUrdf(
+      "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry>"
+      "</visual></link><link name='hand'><visual><geometry><sphere radius='1'/></geometry>"
+      "</visual></link><joint name='slide' type='prismatic'><parent link='base'/><child link='hand'/>"
+      "<axis xyz='0 0 1'/><limit lower='0' upper='2' effort='1' velocity='1'/></joint></robot>"));
+  return arm;
+}
+
+TEST_F(BagSurroundingsTest, AreRobotsWhereTransformsAndJointStatesHaveTheirLinks) {
+  GraphView view;
+  view.robots = {Arm("lab")};
+  const CapturedLog log;
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin + kStep - 2), FrameAt("lab/base", 3, kBegin + kStep - 2));
+        bag.write("/tf", TimeOf(kBegin + 3 * kStep - 2),
+                  FrameAt("lab/base", 4, kBegin + 3 * kStep - 2));
+        sensor_msgs::JointState joints;
+        joints.name = {"slide", "of_another"};
+        joints.position = {0.5, 9};
+        bag.write("/lab/joint_states", TimeOf(kBegin + 4 * kStep - 2), joints);
+        joints.position = {0.9, 9};
+        bag.write("/other/joint_states", TimeOf(kBegin + 4 * kStep - 1), joints);
+      },
+      view);
+  ASSERT_EQ(recorded.robots.size(), 6u);
+  const auto place_of = [&](std::size_t sample, std::size_t link) {
+    return recorded.robots[sample].at(0)->world_from_link[link].translation();
+  };
+  EXPECT_TRUE(place_of(0, 0).hasNaN());
+  EXPECT_EQ(recorded.robots[0][0]->problem,
+            "robot 'arm': 2 of 2 links have no frame in TF: lab/base, lab/hand");
+  EXPECT_EQ(place_of(1, 0), Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(place_of(2, 0), Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(place_of(3, 0), Eigen::Vector3d(4, 0, 0));
+  EXPECT_TRUE(place_of(3, 1).hasNaN());
+  EXPECT_EQ(place_of(4, 1), Eigen::Vector3d(4, 0, 0.5)) << "chained by the joint";
+  EXPECT_EQ(recorded.robots[5][0]->problem, "");
+  EXPECT_EQ(recorded.counters.ignored.count("topic /other/joint_states (sensor_msgs/JointState)"),
+            1u);
+  EXPECT_THAT(log.text(), Not(HasSubstr("no frame")));
+}
+
+TEST_F(BagSurroundingsTest, NameAtTheEndTheLinksThatHadNoFrame) {
+  GraphView view;
+  view.robots = {Arm()};
+  const CapturedLog log;
+  Read([](rosbag::Bag&) {}, view);
+  EXPECT_THAT(log.text(), HasSubstr("2 of 2 links have no frame in TF: base, hand"));
+}
+
+TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
+  const auto write = [](rosbag::Bag& bag) {
+    geometry_msgs::PointStamped point;
+    point.header.frame_id = "world";
+    point.point.x = 2;
+    bag.write("/goal", TimeOf(kBegin + kStep / 2), point);
+    point.point.x = std::numeric_limits<double>::quiet_NaN();
+    bag.write("/goal", TimeOf(kBegin + 2 * kStep), point);
+    bag.write("/other", TimeOf(kBegin + kStep / 2), point);
+  };
+  EXPECT_THAT(CountsOf(Read(write)), ElementsAre(0, 0, 0, 0, 0, 0));
+  GraphView view;
+  view.topics = {"goal"};
+  const Recorded recorded = Read(write, view);
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
+  EXPECT_EQ(recorded.markers.back()[0]->pose.position.x(), 2);
+  EXPECT_THAT(recorded.counters.rejected,
+              ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
+}
+
+TEST_F(BagSurroundingsTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker brief = CubeIn("world", 2, 5);
     brief.lifetime = ros::Duration(0.15);
@@ -115,7 +193,7 @@ TEST_F(BagMarkersTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
   EXPECT_THAT(recorded.counters.rejected, IsEmpty());
 }
 
-TEST_F(BagMarkersTest, BeforeTheFirstSampleStandBesideIt) {
+TEST_F(BagSurroundingsTest, BeforeTheFirstSampleStandBesideIt) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     bag.write("/walls", TimeOf(kBegin - 1), CubeIn("world", 1));
     bag.write("/walls", TimeOf(kBegin - 1), CubeIn("", 2));
@@ -123,7 +201,7 @@ TEST_F(BagMarkersTest, BeforeTheFirstSampleStandBesideIt) {
   EXPECT_THAT(CountsOf(recorded), ElementsAre(2, 2, 2, 2, 2, 2));
 }
 
-TEST_F(BagMarkersTest, FollowTheirFrames) {
+TEST_F(BagSurroundingsTest, FollowTheirFrames) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker locked = CubeIn("cart", 1, 0.5);
     locked.frame_locked = 1;
@@ -140,7 +218,7 @@ TEST_F(BagMarkersTest, FollowTheirFrames) {
   EXPECT_EQ(recorded.markers[5][0]->pose.position, Eigen::Vector3d(2.5, 0, 0));
 }
 
-TEST_F(BagMarkersTest, InAFrameThatIsNotThereAreNamedOnce) {
+TEST_F(BagSurroundingsTest, InAFrameThatIsNotThereAreNamedOnce) {
   const CapturedLog log;
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     for (int n = 0; n < 5; ++n) {
@@ -151,7 +229,7 @@ TEST_F(BagMarkersTest, InAFrameThatIsNotThereAreNamedOnce) {
   EXPECT_THAT(log.text(), HasSubstr("marker walls/1: frame 'moon' is not known yet"));
 }
 
-TEST_F(BagMarkersTest, ThatCannotBeDrawnAreCountedByReason) {
+TEST_F(BagSurroundingsTest, ThatCannotBeDrawnAreCountedByReason) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker flat = CubeIn("world", 1), unknown = CubeIn("world", 2);
     flat.scale.x = std::numeric_limits<double>::quiet_NaN();
@@ -165,7 +243,7 @@ TEST_F(BagMarkersTest, ThatCannotBeDrawnAreCountedByReason) {
               ElementsAre(Pair("marker: cannot be drawn", 1), Pair("marker: unknown action", 1)));
 }
 
-TEST_F(BagMarkersTest, OfKinescopeAreDrawnByTheSceneItself) {
+TEST_F(BagSurroundingsTest, OfKinescopeAreDrawnByTheSceneItself) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker own = CubeIn("world", 1);
     own.ns = "loads";

@@ -1,0 +1,39 @@
+#include "server/picture/moving_robots.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "core/system/errors.h"
+#include "server/options/text.h"
+#include "server/scene/robot_source.h"
+
+namespace kinescope::app {
+
+std::vector<GraphRobot> ReadMovingRobots(const std::vector<RobotPlace>& places) {
+  std::vector<GraphRobot> robots;
+  for (const RobotPlace& place : places) {
+    if (!place.tf_prefix) continue;
+    GraphRobot robot{place.parameter, *place.tf_prefix, {}};
+    if (!place.file.empty()) {
+      robot.robot = ReadRobot(place.file, {});
+      for (const std::string& note : robot.robot.model->notes) {
+        spdlog::warn("{}: {}", place.file, note);
+      }
+    }
+    robots.push_back(std::move(robot));
+  }
+  return robots;
+}
+
+GraphView ToBagView(const ViewOptions& options) {
+  for (const RobotPlace& place : *options.robot) {
+    if (place.parameter.empty()) continue;
+    throw UsageError(
+        fmt::format("--robot=ros:{}: only serve reads the parameters of a ROS graph; name the file "
+                    "of the URDF: --robot=FILE.urdf@tf",
+                    place.parameter));
+  }
+  return {options::SplitItems(*options.marker_topics), ReadMovingRobots(*options.robot)};
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,169 @@
+#include "server/ros/robot_inbox.h"
+
+#include <ros/names.h>
+#include <ros/subscribe_options.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "server/ros/raw_message.h"
+#include "urdf/human_urdf.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::int64_t kPlaceEveryNanos = 16'000'000;
+constexpr std::int64_t kPatienceNanos = 5'000'000'000;  // before a missing frame is worth a warning
+constexpr std::uint32_t kJointStateQueue = 100;
+
+}  // namespace
+
+RobotInbox::RobotInbox(std::vector<GraphRobot> wanted, std::string reference_frame,
+                       std::shared_ptr<const TfTree> tf)
+    : wanted_(std::move(wanted)),
+      reference_frame_(std::move(reference_frame)),
+      tf_(std::move(tf)),
+      slots_(wanted_.size()),
+      texts_(wanted_.size()) {
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    counters_[NameOf(i)];  // shown even before it is there
+    if (wanted_[i].parameter.empty()) loaded_[i] = wanted_[i].robot;
+  }
+}
+
+std::string RobotInbox::ParameterOf(std::size_t i) const {
+  const std::string& name = wanted_[i].parameter;
+  return name.empty() ? name : ros::names::resolve(name);
+}
+
+std::string RobotInbox::JointStatesOf(std::size_t i) const {
+  const std::string parameter = ParameterOf(i);
+  if (parameter.empty()) return ros_bridge::JointStatesOf(wanted_[i]);
+  return ros::names::append(ros::names::parentNamespace(parameter), "joint_states");
+}
+
+std::string RobotInbox::NameOf(std::size_t i) const {
+  const std::string parameter = ParameterOf(i);
+  return "robot " + (parameter.empty() ? wanted_[i].robot.name : parameter);
+}
+
+void RobotInbox::Refuse(std::size_t i, const std::string& kind, const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = counters_[NameOf(i)];
+  ++counters.received;
+  ++counters.refused[kind];
+  counters.last_problem = text;
+}
+
+void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>& urdf) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (texts_[i] == urdf) return;
+    texts_[i] = urdf;
+  }
+  if (!urdf) return;  // what is shown stays, as in RViz
+  if (urdf::IsWrittenByKinescope(*urdf)) {
+    spdlog::warn("{} is a person of Kinescope, who is shown already", ParameterOf(i));
+    return Refuse(i, "of Kinescope", "a person of Kinescope: the scene has them already");
+  }
+  RobotState robot;
+  try {
+    robot.model = std::make_shared<const urdf::RobotModel>(urdf::ParseUrdf(*urdf));
+  } catch (const urdf::UrdfError& error) {
+    spdlog::warn("{}: {}; the robot is not shown", ParameterOf(i), error.what());
+    return Refuse(i, "not a URDF", error.what());
+  }
+  robot.name = robot.model->name;
+  urdf::MeshSearch search = urdf::MakeMeshSearch("", {});
+  search.urdf_folder.clear();  // the URDF is in no folder
+  robot.meshes = std::make_shared<const urdf::MeshSearch>(std::move(search));
+  spdlog::info("{}: robot '{}' with {} links", ParameterOf(i), robot.name,
+               robot.model->links.size());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loaded_[i] = std::move(robot);
+  InputCounters& counters = counters_[NameOf(i)];
+  ++counters.received;
+  ++counters.used;
+}
+
+void RobotInbox::SetProblem(std::size_t i, const std::string& why) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (counters_[NameOf(i)].last_problem == why) return;
+  }
+  spdlog::warn("{}: {}; the robot is not shown", ParameterOf(i), why);
+  Refuse(i, "cannot be read", why);
+}
+
+void RobotInbox::OnJointStates(std::size_t i, const sensor_msgs::JointState& message) {
+  if (slots_[i].frames) slots_[i].frames->Take(message);
+}
+
+void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos, InputSink& sink) {
+  if (monotonic_nanos - placed_nanos_ < kPlaceEveryNanos) return;
+  placed_nanos_ = monotonic_nanos;
+  std::map<std::size_t, RobotState> loaded;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    loaded.swap(loaded_);
+  }
+  for (auto& [i, robot] : loaded) {
+    slots_[i].frames.emplace(std::move(robot), wanted_[i].tf_prefix);
+    has_news_ = true;
+  }
+  RobotList robots;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (!slots_[i].frames) continue;
+    RobotFrames& frames = *slots_[i].frames;
+    const auto find = [&](const std::string& frame) -> std::optional<urdf::Pose> {
+      if (frame == reference_frame_) return urdf::Pose{};
+      return tf_->Find(reference_frame_, frame, stamp_nanos);
+    };
+    if (frames.Place(find)) has_news_ = true;
+    Warn(i, monotonic_nanos);
+    robots.push_back(frames.now());
+  }
+  if (!std::exchange(has_news_, false)) return;
+  sink.OnRobots(robots);
+}
+
+// Frames come one after another when a robot is started: only what stays away is worth a word.
+void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
+  Slot& slot = slots_[i];
+  const std::string& problem = slot.frames->now()->problem;
+  if (problem.empty()) {
+    slot.incomplete_nanos = 0;
+    return;
+  }
+  if (slot.incomplete_nanos == 0) slot.incomplete_nanos = monotonic_nanos;
+  if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
+  if (std::exchange(slot.warned_of, problem) == problem) return;
+  spdlog::warn("{}; does robot_state_publisher run, and is '{}' connected to it in TF?", problem,
+               reference_frame_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  counters_[NameOf(i)].last_problem = problem;
+}
+
+std::map<std::string, InputCounters> RobotInbox::counters() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counters_;
+}
+
+std::vector<ros::Subscriber> SubscribeJointStates(ros::NodeHandle& node, ros::CallbackQueue& queue,
+                                                  const std::shared_ptr<RobotInbox>& inbox) {
+  using Heard = BoundedMessage<sensor_msgs::JointState>;
+  std::vector<ros::Subscriber> all;
+  for (std::size_t i = 0; i < inbox->size(); ++i) {
+    auto options = ros::SubscribeOptions::create<Heard>(
+        inbox->JointStatesOf(i), kJointStateQueue,
+        [inbox, i](const boost::shared_ptr<const Heard>& heard) {
+          if (heard->is_sound) inbox->OnJointStates(i, heard->message);
+        },
+        ros::VoidConstPtr(), &queue);
+    all.push_back(node.subscribe(options));
+  }
+  return all;
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,194 @@
+#include "server/ros/source/bag_surroundings.h"
+
+#include <ros/message_traits.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "server/ros/markers.h"
+#include "server/ros/raw_message.h"
+#include "server/ros/shown_messages.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::size_t kMostMarkerTopics = 256;
+constexpr std::size_t kMostWarnings = 8;
+constexpr std::int64_t kPlaceEveryNanos = 16'000'000;  // of the bag: robots, for any frame rate
+constexpr char kUnreadableMarkers[] = "markers that are truncated or have a wrong length field";
+constexpr char kUnreadableJoints[] = "joint states that are truncated or have a wrong length field";
+
+bool IsOne(const BagConnection& connection) {
+  return connection.md5sum == ros::message_traits::md5sum<visualization_msgs::Marker>();
+}
+
+bool IsArray(const BagConnection& connection) {
+  return connection.md5sum == ros::message_traits::md5sum<visualization_msgs::MarkerArray>();
+}
+
+bool HasJoints(const BagConnection& connection) {
+  return connection.md5sum == ros::message_traits::md5sum<sensor_msgs::JointState>();
+}
+
+std::string WithSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+std::set<std::string> AllWithSlash(const std::vector<std::string>& topics) {
+  std::set<std::string> all;
+  for (const std::string& topic : topics) all.insert(WithSlash(topic));
+  return all;
+}
+
+bool IsWhole(const BagMessage& message) { return message.bytes.size() == message.size; }
+
+}  // namespace
+
+BagSurroundings::BagSurroundings(const GraphView& view) : shown_topics_(AllWithSlash(view.topics)) {
+  for (const GraphRobot& robot : view.robots) {
+    robots_.push_back({RobotFrames(robot.robot, robot.tf_prefix), JointStatesOf(robot)});
+  }
+}
+
+bool BagSurroundings::IsUsed(const BagConnection& connection) const {
+  if (IsOne(connection) || IsArray(connection)) return true;
+  const std::string topic = WithSlash(connection.topic);
+  if (HasJoints(connection)) {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [&](const Robot& robot) { return robot.joint_states == topic; });
+  }
+  return shown_topics_.count(topic) != 0 && FindShownMessage(connection.md5sum) != nullptr;
+}
+
+void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
+  const BagConnection& connection = *message.connection;
+  if (HasJoints(connection)) return TakeJointStates(message, counters);
+  if (IsOne(connection) || IsArray(connection)) return TakeMarkers(message, counters);
+  TakeShown(message, counters);
+}
+
+// Into array_. Why it cannot be used, or null.
+const char* BagSurroundings::Decode(const BagMessage& message) {
+  if (!IsWhole(message)) return "markers of more than 16 MiB";
+  if (IsArray(*message.connection)) {
+    return kinescope::ros_bridge::Decode(message.bytes, array_) ? nullptr : kUnreadableMarkers;
+  }
+  if (!kinescope::ros_bridge::Decode(message.bytes, marker_)) return kUnreadableMarkers;
+  array_.markers.assign(1, marker_);
+  return nullptr;
+}
+
+std::optional<std::size_t> BagSurroundings::NumberOf(const std::string& topic,
+                                                     SourceCounters& counters) {
+  if (topics_.count(topic) == 0 && topics_.size() >= kMostMarkerTopics) {
+    ++counters.ignored["markers of further topics"];
+    return std::nullopt;
+  }
+  return topics_.try_emplace(topic, topics_.size()).first->second;
+}
+
+void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& counters) {
+  if (const char* const defect = Decode(message)) {
+    ++counters.rejected[defect];
+    return;
+  }
+  if (!array_.markers.empty() && IsOwnMarkerNamespace(array_.markers.front().ns)) {
+    ++counters.ignored["markers of Kinescope"];
+    return;
+  }
+  const auto number = NumberOf(message.connection->topic, counters);
+  if (!number) return;
+  has_markers_ = true;
+  std::optional<Refusal> refused;
+  for (const visualization_msgs::Marker& marker : array_.markers) {
+    const auto refusal = store_.Apply(*number, marker, message.recorded_nanos);
+    if (refusal && !refused) refused = refusal;
+  }
+  if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
+}
+
+void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& counters) {
+  if (!IsWhole(message)) {
+    ++counters.rejected["messages of more than 16 MiB"];
+    return;
+  }
+  const Taken<ShownMarkers> shown = FindShownMessage(message.connection->md5sum)(message.bytes);
+  if (!shown) {
+    ++counters.rejected[message.connection->type + ": " + shown.error().kind];
+    return;
+  }
+  const auto number = NumberOf(message.connection->topic, counters);
+  if (!number) return;
+  has_markers_ = true;
+  for (const visualization_msgs::Marker& marker : *shown) {
+    if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos)) {
+      ++counters.rejected[message.connection->type + ": " + refusal->kind];
+      return;
+    }
+  }
+}
+
+void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters& counters) {
+  sensor_msgs::JointState joints;
+  if (!IsWhole(message) || !ReadBounded(message.bytes.data(), message.bytes.size(), joints)) {
+    ++counters.rejected[kUnreadableJoints];
+    return;
+  }
+  const std::string topic = WithSlash(message.connection->topic);
+  for (Robot& robot : robots_) {
+    if (robot.joint_states == topic) robot.frames.Take(joints);
+  }
+}
+
+void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
+  if (has_markers_ || !robots_.empty() || is_static) tf_.Add(message, is_static);
+}
+
+bool BagSurroundings::PlaceRobots(std::int64_t now_nanos, const std::string& world) {
+  if (placed_nanos_ && now_nanos >= *placed_nanos_ && now_nanos - *placed_nanos_ < kPlaceEveryNanos)
+    return false;
+  placed_nanos_ = now_nanos;
+  bool has_moved = std::exchange(has_new_robots_, false) && !robots_.empty();
+  for (Robot& robot : robots_) {
+    const auto find = [&](const std::string& frame) -> std::optional<urdf::Pose> {
+      if (frame == world) return urdf::Pose{};
+      return tf_.Find(world, frame, 0);
+    };
+    has_moved = robot.frames.Place(find) || has_moved;
+  }
+  return has_moved;
+}
+
+void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
+                             const std::string& bag, SampleSink& sink) {
+  if (world.empty()) return;
+  const auto find = [&](const std::string& frame,
+                        std::int64_t stamp_nanos) -> std::optional<urdf::Pose> {
+    if (frame.empty() || frame == world) return urdf::Pose{};
+    return tf_.Find(world, frame, stamp_nanos);
+  };
+  const bool has_moved = PlaceRobots(now_nanos, world);
+  const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
+  if (has_moved || has_new_markers) {
+    RecordedSurroundings all{store_.markers(), {}};
+    for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
+    sink.OnSurroundings(all);
+  }
+  for (const MarkerStore::Lost& lost : store_.TakeLost()) {
+    if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(lost.text).second) continue;
+    spdlog::warn("bag '{}': {}; it is not shown", bag, lost.text);
+  }
+}
+
+std::vector<std::string> BagSurroundings::Problems() const {
+  std::vector<std::string> problems;
+  for (const Robot& robot : robots_) {
+    if (!robot.frames.now()->problem.empty()) problems.push_back(robot.frames.now()->problem);
+  }
+  return problems;
+}
+
+}  // namespace kinescope::ros_bridge

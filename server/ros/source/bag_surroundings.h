@@ -1,0 +1,75 @@
+/// What a bag has beside the people, as it changes over time: markers (visualization_msgs/Marker
+/// and MarkerArray, on any topic), messages that are shown as markers, and robots. Actions,
+/// lifetimes and frames are as in marker_input.h, by the times of the bag. One thread.
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/source.h"
+#include "server/ros/force_frames.h"
+#include "server/ros/marker_input.h"
+#include "server/ros/robot_frames.h"
+#include "server/ros/source/bag_reader.h"
+#include "server/ros/source/bag_source.h"
+
+namespace kinescope::ros_bridge {
+
+class BagSurroundings {
+ public:
+  explicit BagSurroundings(const GraphView& view);
+
+  /// Whether its messages are used.
+  bool IsUsed(const BagConnection& connection) const;
+
+  /// Takes a message of such a connection. What is not used is counted by reason: the markers that
+  /// Kinescope itself published, which a scene draws by itself, in `ignored`. @pre IsUsed()
+  void Take(const BagMessage& message, SourceCounters& counters);
+  /// Remembers frames; before there is something to place the static ones alone.
+  void AddTransforms(const tf2_msgs::TFMessage& message, bool is_static);
+  /// Delivers all to `sink` if something has changed at `now_nanos` (of the bag). `world`: the
+  /// frame of the scene. Warns once of each frame that is not there.
+  void Update(std::int64_t now_nanos, const std::string& world, const std::string& bag,
+              SampleSink& sink);
+
+  /// The recording is over: which robots were never placed, one line each.
+  std::vector<std::string> Problems() const;
+
+ private:
+  struct Robot {
+    RobotFrames frames;
+    std::string joint_states;  // topic
+  };
+
+  const char* Decode(const BagMessage& message);
+  void TakeMarkers(const BagMessage& message, SourceCounters& counters);
+  void TakeShown(const BagMessage& message, SourceCounters& counters);
+  void TakeJointStates(const BagMessage& message, SourceCounters& counters);
+  /// The number of a topic; nullopt, counted: there are too many.
+  std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
+  bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
+
+  const std::set<std::string> shown_topics_;
+  std::vector<Robot> robots_;
+  bool has_new_robots_ = true;
+  std::optional<std::int64_t> placed_nanos_;
+  bool has_markers_ = false;
+  MarkerStore store_;
+  TfTree tf_;
+  std::map<std::string, std::size_t> topics_;  // their numbers
+  std::set<std::string> lost_frames_;          // that were warned of
+  visualization_msgs::Marker marker_;
+  visualization_msgs::MarkerArray array_;
+};
+
+}  // namespace kinescope::ros_bridge
