@@ -2,10 +2,12 @@
 /// here.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/robot_state.h"
+#include "core/suit_colors.h"
 
 namespace kinescope {
 
@@ -16,9 +18,23 @@ struct GraphRobot {
   RobotState robot = {};  // without a parameter: model, meshes and name; else empty
 };
 
+/// How a message that is shown as a marker looks, where it is not as by default
+/// (server/ros/shown_messages.h).
+struct ShownStyle {
+  std::optional<Rgb> color;      // of all of it, in place of colours of its own
+  std::optional<double> alpha;   // 0..1
+  std::optional<double> size_m;  // of a point, the width of a line, the length of an arrow, the
+                                 // radius of a sphere
+};
+
+struct ShownTopic {
+  std::string name;
+  ShownStyle style = {};
+};
+
 struct GraphView {
-  /// Of messages that are shown as markers (server/ros/shown_messages.h): points, poses, paths, ...
-  std::vector<std::string> topics;
+  /// Of messages that are shown as markers: points, poses, paths, ...
+  std::vector<ShownTopic> topics;
   std::vector<GraphRobot> robots;
 
   bool is_empty() const { return topics.empty() && robots.empty(); }

@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include "core/system/errors.h"
-#include "server/options/text.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
@@ -33,7 +32,7 @@ GraphView ToBagView(const ViewOptions& options) {
                     "of the URDF: --robot=FILE.urdf@tf",
                     place.parameter));
   }
-  return {options::SplitItems(*options.marker_topics), ReadMovingRobots(*options.robot)};
+  return {*options.marker_topics, ReadMovingRobots(*options.robot)};
 }
 
 }  // namespace kinescope::app

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "server/options/text.h"
 
 namespace kinescope::app {
 namespace {
+
+constexpr double kSmallest = 0.001, kLargest = 10;  // m, of a size
 
 bool IsName(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
@@ -26,13 +30,59 @@ bool IsTopicName(const std::string& text) {
 
 bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
 
-bool AreTopicNames(const std::string& text) {
-  const std::vector<std::string> names = options::SplitItems(text);
-  return names.size() <= kMaxMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
+namespace {
+
+// "color=#ff8800": false where it says nothing.
+bool TakeStyle(const std::string& item, ShownStyle& style) {
+  const auto parts = options::SplitAtLast(item, '=');
+  if (!parts) return false;
+  const auto& [key, text] = *parts;
+  if (key == "color") {
+    style.color = ColorFromHex(text);
+    return style.color.has_value();
+  }
+  const auto number = options::ParseNumber(text);
+  if (!number) return false;
+  if (key == "alpha" && *number >= 0 && *number <= 1) {
+    style.alpha = *number;
+  } else if (key == "size" && *number >= kSmallest && *number <= kLargest) {
+    style.size_m = *number;
+  } else {
+    return false;
+  }
+  return true;
 }
 
-options::Text MarkerTopics() {
-  return {"", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames};
+std::optional<ShownTopic> ParseTopic(const std::string& text) {
+  ShownTopic topic;
+  const std::size_t open = text.find('(');
+  topic.name = text.substr(0, open);
+  if (!IsTopicName(topic.name)) return std::nullopt;
+  if (open == std::string::npos) return topic;
+  if (text.back() != ')') return std::nullopt;
+  for (const std::string& item :
+       options::SplitItems(text.substr(open + 1, text.size() - open - 2))) {
+    if (!TakeStyle(item, topic.style)) return std::nullopt;
+  }
+  return topic;
+}
+
+}  // namespace
+
+void ShownTopicsValue::Parse(const std::string& text) {
+  std::vector<ShownTopic> topics;
+  for (const std::string& item : options::SplitItems(text)) {
+    std::optional<ShownTopic> topic = ParseTopic(item);
+    if (!topic || topics.size() == kMaxMarkerTopics) RefuseText();
+    topics.push_back(std::move(*topic));
+  }
+  value_ = std::move(topics);
+  text_ = text;
+}
+
+std::string ShownTopicsValue::Expected() const {
+  return "up to 16 topics with commas between, such as "
+         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/plan (size in m)";
 }
 
 }  // namespace kinescope::app

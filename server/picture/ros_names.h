@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/graph_view.h"
 #include "server/options/value.h"
 
 namespace kinescope::app {
@@ -14,10 +16,17 @@ inline constexpr std::size_t kMaxMarkerTopics = 16;
 [[nodiscard]] bool IsTopicName(const std::string& text);
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
-/// At most kMaxMarkerTopics with commas between; "": none.
-[[nodiscard]] bool AreTopicNames(const std::string& text);
+/// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/plan".
+class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
+ public:
+  ShownTopicsValue() : ValueOf({}) {}
 
-/// --marker_topics, "" unless told.
-options::Text MarkerTopics();
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+
+ private:
+  std::string text_;
+};
 
 }  // namespace kinescope::app

@@ -4,8 +4,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "core/system/errors.h"
@@ -30,6 +32,7 @@ constexpr std::size_t kMostRemarks = 200;
 constexpr double kDarkest = 48.0 / 255;  // RViz's own background
 constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
 constexpr double kFarthest = 1000;       // m, of a camera
+constexpr double kSmallestShown = 0.001; // m
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -39,14 +42,38 @@ std::string Shown(const std::string& text) {
   return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
 }
 
-// Of displays whose topic has messages that are shown as markers (server/ros/shown_messages.h).
-constexpr const char* kTopicDisplays[] = {"rviz/PointStamped", "rviz/Pose",      "rviz/PoseArray",
-                                          "rviz/Path",         "rviz/LaserScan", "rviz/PointCloud2",
-                                          "rviz/WrenchStamped"};
+// Of a display whose topic has messages that are shown as markers (server/ros/shown_messages.h).
+struct ShownProperties {
+  const char* kind;
+  const char* color;                      // null: of points, by "Color Transformer"
+  std::array<const char*, 2> sizes = {};  // their sum
+  // The sizes count unless this property, which is usually `usually`, is `not_if`.
+  const char* only_if = nullptr;
+  const char* not_if = "";
+  const char* usually = "";
+};
+constexpr ShownProperties kTopicDisplays[] = {
+    {"rviz/PointStamped", "Color", {"Radius"}},
+    {"rviz/Pose", "Color", {"Shaft Length", "Head Length"}},
+    {"rviz/PoseArray", "Color", {"Arrow Length"}},
+    {"rviz/Path", "Color", {"Line Width"}, "Line Style", "Lines", "Lines"},
+    {"rviz/LaserScan", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/PointCloud2", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/WrenchStamped", "Force Color"}};
 
 bool IsTopicDisplay(const std::string& kind) {
-  return std::find(std::begin(kTopicDisplays), std::end(kTopicDisplays), kind) !=
-         std::end(kTopicDisplays);
+  return std::any_of(std::begin(kTopicDisplays), std::end(kTopicDisplays),
+                     [&](const ShownProperties& each) { return each.kind == kind; });
+}
+
+const ShownProperties& PropertiesOf(const std::string& kind) {
+  return *std::find_if(std::begin(kTopicDisplays), std::end(kTopicDisplays),
+                       [&](const ShownProperties& each) { return each.kind == kind; });
+}
+
+std::string HexOf(const Rgb& rgb) {
+  const auto level = [&](std::size_t i) { return std::lround(255 * rgb[i]); };
+  return fmt::format("#{:02x}{:02x}{:02x}", level(0), level(1), level(2));
 }
 
 std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
@@ -98,8 +125,7 @@ class RvizReader {
                              " is no r; g; b or #rrggbb; RViz's own is taken");
       rgb = Rgb{kDarkest, kDarkest, kDarkest};
     }
-    const auto level = [&](std::size_t i) { return std::lround(255 * (*rgb)[i]); };
-    Set("background", fmt::format("#{:02x}{:02x}{:02x}", level(0), level(1), level(2)), line);
+    Set("background", HexOf(*rgb), line);
     const double luma = 0.2126 * (*rgb)[0] + 0.7152 * (*rgb)[1] + 0.0722 * (*rgb)[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
     fixed_frame_ = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
@@ -138,9 +164,9 @@ class RvizReader {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
-      ReadTopic(display, called, "Marker Topic", true);
+      ReadTopic(display, called, "Marker Topic", "");
     } else if (IsTopicDisplay(kind)) {
-      ReadTopic(display, called, "Topic", false);
+      ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/TF") {
       has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
       if (BoolOf(display, "Show Names", true) || BoolOf(display, "Show Arrows", true)) {
@@ -156,9 +182,14 @@ class RvizReader {
       Remark(display, called + ": collision geometry is not drawn");
       return;
     }
-    if (has_model_) {
-      Remark(display, called + " is another model: give the URDF of a robot as --robot");
-      return;
+    const std::string name = TextOf(display, "Robot Description", "robot_description"),
+                      prefix = TextOf(display, "TF Prefix", "");
+    if (IsTopicName(name) && (prefix.empty() || IsFrameName(prefix))) {
+      picture_.robots.push_back(
+          {"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix), Shown(called), LineOf(display)});
+    } else {
+      Remark(display, fmt::format("{} is not drawn: {} with the prefix {} is no name in ROS", called,
+                                  Quoted(name), Quoted(prefix)));
     }
     has_model_ = true;
     if (rviz::NumberOf(display, "Alpha", 1, 0, 1) < 1) {
@@ -166,11 +197,48 @@ class RvizReader {
     }
   }
 
+  // Colours, opacity and size, as --marker_topics has them; what else the display has is named.
+  std::string StyleOf(const YAML::Node& display, const std::string& kind,
+                      const std::string& called) {
+    const ShownProperties& has = PropertiesOf(kind);
+    std::string style;
+    const auto add = [&](const std::string& item) { style += (style.empty() ? "" : ",") + item; };
+    const std::string transformer = TextOf(display, "Color Transformer", "");
+    const bool is_cloud = has.color == nullptr;
+    if (is_cloud && transformer != "" && transformer != "FlatColor" && transformer != "RGB8" &&
+        transformer != "Intensity") {
+      Remark(display, called + ": Color Transformer " + Quoted(transformer) +
+                          " is not taken; its points have the colours of the message");
+    }
+    const char* const color = is_cloud ? (transformer == "FlatColor" ? "Color" : "") : has.color;
+    if (Member(display, color).IsDefined()) {
+      const auto rgb = rviz::ColorOf(display, color, {1, 1, 1});
+      if (rgb) add("color=" + HexOf(*rgb));
+    }
+    if (Member(display, "Alpha").IsDefined()) {
+      const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
+      if (alpha < 1) add("alpha=" + options::NumberText(alpha));
+    }
+    const bool has_size = !(has.only_if != nullptr && TextOf(display, has.only_if, has.usually) ==
+                                                         std::string(has.not_if));
+    double size = 0;
+    for (const char* const part : has.sizes) {
+      if (part != nullptr) size += rviz::NumberOf(display, part, 0, 0, 10);
+    }
+    if (has_size && size >= kSmallestShown) add("size=" + options::NumberText(size));
+    const std::string shape = TextOf(display, "Shape", "");
+    if (shape == "Axes" || shape == "Arrow (3D)") {
+      Remark(display, called + ": Shape " + Quoted(shape) + " is drawn as a plain arrow");
+    }
+    return style.empty() ? "" : "(" + style + ")";
+  }
+
   void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,
-                 bool is_marker) {
+                 const std::string& style) {
+    const bool is_marker = std::string_view(member) == "Marker Topic";
     const std::string name = TextOf(display, member, "");
     if (IsTopicName(name)) {
-      picture_.topics.push_back({name, Shown(called), is_marker, LineOf(display)});
+      picture_.topics.push_back({name, style, Shown(called), is_marker, LineOf(display)});
     } else if (!is_marker) {
       const std::string why =
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";

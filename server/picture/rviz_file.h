@@ -14,14 +14,22 @@ struct RvizPicture {
     int line = 1;  // of the file
   };
   std::vector<Setting> settings;  // each option at most once
-  /// Of a display that is on and of a kind that `serve` can show from its topic.
+  /// Of a display that is on and of a kind that can be shown from its topic.
   struct Topic {
     std::string name;     // as it was saved, such as "/goal"
+    std::string style;    // as --marker_topics has it, such as "(color=#ff8800)", or ""
     std::string display;  // "rviz/Pose 'Goal'"
     bool is_marker = false;
     int line = 1;
   };
   std::vector<Topic> topics;
+  /// A model whose description a ROS graph has; also that of a person.
+  struct Robot {
+    std::string option;   // a value of --robot
+    std::string display;  // "rviz/RobotModel 'Arm'"
+    int line = 1;
+  };
+  std::vector<Robot> robots;
   std::vector<std::string>
       remarks;  // "FILE:LINE: what": what RViz draws and we do not, or otherwise
 };

@@ -9,6 +9,7 @@
 
 #include "server/picture/ros_names.h"
 #include "server/picture/rviz_file.h"
+#include "server/source/open_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -20,19 +21,49 @@ bool IsPartOfView(const std::string& option) {
   return option == "camera" || option == "fov" || option == "projection";
 }
 
-// `serve` shows what is on their topics, if it has ROS; otherwise they are named.
+bool HasGraph(options::OptionList& list) {
+  const options::Option* const ros = list.Find("ros");
+  return ros != nullptr && ros->value->ToText() != "off";
+}
+
+// The topics of a ROS graph, or of a bag.
+bool HasTopics(options::OptionList& list) {
+  const options::Option* const source = list.Find("source");
+  if (HasGraph(list) || source == nullptr) return HasGraph(list);
+  const std::vector<std::string> sources = source->value->ToTexts();
+  return !sources.empty() && std::all_of(sources.begin(), sources.end(), IsBag);
+}
+
+// Of the graph: what a person's description is, the server finds out.
+void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>& robots,
+                 options::OptionList& list) {
+  options::Option* const option = list.Find("robot");
+  if (option == nullptr || option->channel != Channel::kDefault || robots.empty()) return;
+  std::vector<std::string> texts;
+  if (HasGraph(list)) {
+    for (const RvizPicture::Robot& robot : robots) texts.push_back(robot.option);
+    list.Set(*option, option->name, {"", file + ": ", texts}, Channel::kFile);
+    return;
+  }
+  // The first model is that of the people.
+  for (std::size_t i = 1; i < robots.size(); ++i) {
+    spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
+                 robots[i].line, robots[i].display);
+  }
+}
+
+// Shown where there are topics; otherwise they are named.
 void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>& topics,
                  options::OptionList& list) {
   options::Option* const option = list.Find("marker_topics");
-  const options::Option* const ros = list.Find("ros");
-  const bool is_possible = option != nullptr && !(ros != nullptr && ros->value->ToText() == "off");
-  std::vector<std::string> names;
+  const bool is_possible = option != nullptr && HasTopics(list);
+  std::vector<std::string> names, items;
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
       if (!topic.is_marker) {
-        spdlog::warn("{}{} is not drawn: only serve shows it, while it has ROS", place,
-                     topic.display);
+        spdlog::warn("{}{} is not drawn: the source has no topics (a bag has, and serve with ROS)",
+                     place, topic.display);
       }
     } else if (std::find(names.begin(), names.end(), topic.name) != names.end()) {
       continue;
@@ -40,10 +71,11 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
       spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, kMaxMarkerTopics);
     } else {
       names.push_back(topic.name);
+      items.push_back(topic.name + topic.style);
     }
   }
   if (names.empty() || option->channel != Channel::kDefault) return;
-  list.Set(*option, option->name, {fmt::format("{}", fmt::join(names, ",")), file + ": "},
+  list.Set(*option, option->name, {fmt::format("{}", fmt::join(items, ",")), file + ": "},
            Channel::kFile);
 }
 
@@ -65,6 +97,7 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
       list.Set(*option, setting.option, {setting.text, origin}, Channel::kFile);
     }
   }
+  ApplyRobots(*file, picture.robots, list);
   ApplyTopics(*file, picture.topics, list);
   for (const std::string& remark : picture.remarks) spdlog::warn("{}", remark);
   if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *file, missing);

@@ -397,8 +397,7 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       floor(true),
       show(Joined(PartNames(false)), render::kSceneParts.size(), PartNamed, kFormerParts),
       hide(Joined(PartNames(true)), render::kSceneParts.size(), PartNamed, kFormerParts),
-      ghost_opacity(GhostOpacity()),
-      marker_topics(MarkerTopics()) {}
+      ghost_opacity(GhostOpacity()) {}
 
 options::Number GhostOpacity() { return {0.35, {0, 1}}; }
 

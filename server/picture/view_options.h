@@ -11,6 +11,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
+#include "server/picture/ros_names.h"
 #include "server/picture/trail_options.h"
 
 namespace kinescope::app {
@@ -173,7 +174,7 @@ struct ViewOptions {
   GhostValue ghost;
   options::Number ghost_opacity;
   RobotsValue robot;
-  options::Text marker_topics;
+  ShownTopicsValue marker_topics;
 
   void List(options::OptionList& option);
 };

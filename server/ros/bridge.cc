@@ -217,14 +217,14 @@ class Bridge : public RosBridge {
   }
 
   std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
-    std::vector<std::string> topics = MarkerTopicNames(config_.markers);
-    if (topics.empty()) return nullptr;
-    return std::make_shared<MarkerInbox>(std::move(topics), config_.reference_frame, transforms_);
+    if (config_.shown.topics.empty()) return nullptr;
+    return std::make_shared<MarkerInbox>(config_.shown.topics, config_.reference_frame,
+                                         transforms_);
   }
 
   std::shared_ptr<RobotInbox> MakeRobotInbox() const {
-    if (config_.robots.empty()) return nullptr;
-    return std::make_shared<RobotInbox>(config_.robots, config_.reference_frame, transforms_);
+    if (config_.shown.robots.empty()) return nullptr;
+    return std::make_shared<RobotInbox>(config_.shown.robots, config_.reference_frame, transforms_);
   }
 
   InputWiring MakeWiring() {

@@ -46,8 +46,7 @@ struct BridgeConfig {
   double external_scale = 1;
   /// Why a hand load is rejected, "" if it is accepted. Null: all are accepted.
   std::function<std::string(const HandLoad&)> check_hand_load;
-  std::string markers;     // topics of external markers, comma-separated
-  std::vector<GraphRobot> robots;
+  GraphView shown;         // of other nodes, beside the people
   bool with_view = false;  // advertises `~view/image_raw`; its owner must render it
 };
 

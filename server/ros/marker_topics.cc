@@ -4,7 +4,6 @@
 #include <ros/subscribe_options.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <sstream>
 #include <utility>
 
 #include "core/system/clocks.h"
@@ -20,20 +19,16 @@ constexpr std::size_t kMaxTopics = 16;
 constexpr std::uint32_t kMarkerQueue = 1000;
 constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
 
-}  // namespace
-
-std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
-  std::vector<std::string> topics;
-  std::istringstream in(comma_separated);
-  for (std::string name; std::getline(in, name, ',');) {
+std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
+  for (ShownTopic& topic : topics) {
     std::string why;
-    if (name.empty() || !ros::names::validate(name, why)) {
+    if (topic.name.empty() || !ros::names::validate(topic.name, why)) {
       throw UsageError(
-          fmt::format("--marker_topics={}: invalid topic name '{}'; expected names such as "
+          fmt::format("--marker_topics: invalid topic name '{}'; expected names such as "
                       "/walls,/plan/markers",
-                      comma_separated, name));
+                      topic.name));
     }
-    topics.push_back(ros::names::resolve(name));
+    topic.name = ros::names::resolve(topic.name);
   }
   if (topics.size() > kMaxTopics) {
     throw UsageError(
@@ -42,10 +37,14 @@ std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
   return topics;
 }
 
-MarkerInbox::MarkerInbox(std::vector<std::string> topics, std::string reference_frame,
+}  // namespace
+
+MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string reference_frame,
                          std::shared_ptr<const TfTree> tf)
-    : topics_(std::move(topics)), reference_frame_(std::move(reference_frame)), tf_(std::move(tf)) {
-  for (const std::string& topic : topics_) counters_[topic];  // shown even without messages
+    : topics_(Resolved(std::move(topics))),
+      reference_frame_(std::move(reference_frame)),
+      tf_(std::move(tf)) {
+  for (const ShownTopic& topic : topics_) counters_[topic.name];  // shown even without messages
 }
 
 void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
@@ -69,7 +68,7 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     return;
   }
   if (const ToMarkersOfBytes to_markers = FindShownMessage(sum)) {
-    return TakeShown(topic, to_markers(raw.bytes), monotonic_nanos);
+    return TakeShown(topic, to_markers(raw.bytes, topics_[topic].style), monotonic_nanos);
   }
   Refuse(topic, {"another type",
                  fmt::format("message type {}: expected visualization_msgs/Marker, "
@@ -90,7 +89,7 @@ void MarkerInbox::TakeShown(std::size_t topic, const Taken<ShownMarkers>& marker
 
 void MarkerInbox::CountUsed(std::size_t topic) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = counters_[topics_[topic]];
+  InputCounters& counters = counters_[topics_[topic].name];
   ++counters.received;
   ++counters.used;
 }
@@ -108,7 +107,7 @@ void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& mess
 
 void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = counters_[topics_[topic]];
+  InputCounters& counters = counters_[topics_[topic].name];
   ++counters.received;
   ++counters.refused[refusal.kind];
   counters.last_problem = refusal.text;
@@ -140,7 +139,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   if (changed) sink.OnMarkers(store_.markers());
   for (const MarkerStore::Lost& lost : store_.TakeLost()) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    InputCounters& counters = counters_[topics_[lost.topic]];
+    InputCounters& counters = counters_[topics_[lost.topic].name];
     ++counters.refused["unknown frame"];
     counters.last_problem = lost.text;
   }
@@ -157,7 +156,7 @@ std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::Callba
   for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const MarkerInbox::Event&>(
-        inbox->topics()[topic], kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
+        inbox->topics()[topic].name, kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
           inbox->OnMessage(topic, event, MonotonicNanos());
         });
     options.callback_queue = &queue;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
 #include "server/ros/force_frames.h"
@@ -25,16 +26,13 @@
 
 namespace kinescope::ros_bridge {
 
-/// Full names of the topics in "/walls,plan": at most 16.
-/// @throws UsageError with the invalid topic name. @pre InitRos was called.
-std::vector<std::string> MarkerTopicNames(const std::string& comma_separated);
-
 class MarkerInbox {
  public:
-  MarkerInbox(std::vector<std::string> topics, std::string reference_frame,
+  /// At most 16 topics. @throws UsageError with an invalid name. @pre InitRos was called.
+  MarkerInbox(std::vector<ShownTopic> topics, std::string reference_frame,
               std::shared_ptr<const TfTree> tf);
 
-  const std::vector<std::string>& topics() const { return topics_; }
+  const std::vector<ShownTopic>& topics() const { return topics_; }  // with their full names
 
   // The following functions are for the thread that reads samples.
 
@@ -62,7 +60,7 @@ class MarkerInbox {
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
 
-  const std::vector<std::string> topics_;
+  const std::vector<ShownTopic> topics_;
   const std::string reference_frame_;
   const std::shared_ptr<const TfTree> tf_;
 

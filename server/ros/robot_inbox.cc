@@ -64,7 +64,7 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   }
   if (!urdf) return;  // what is shown stays, as in RViz
   if (urdf::IsWrittenByKinescope(*urdf)) {
-    spdlog::warn("{} is a person of Kinescope, who is shown already", ParameterOf(i));
+    spdlog::info("{} is a person of Kinescope, who is shown as one", ParameterOf(i));
     return Refuse(i, "of Kinescope", "a person of Kinescope: the scene has them already");
   }
   RobotState robot;

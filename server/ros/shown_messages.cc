@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/scene_marker.h"
 #include "server/ros/raw_message.h"
@@ -26,6 +27,17 @@ std_msgs::ColorRGBA Color(int red, int green, int blue) {
   color.g = static_cast<float>(green) / 255;
   color.b = static_cast<float>(blue) / 255;
   color.a = 1;
+  return color;
+}
+
+// `color`, unless the style has another one.
+std_msgs::ColorRGBA In(const ShownStyle& style, std_msgs::ColorRGBA color) {
+  if (style.color) {
+    color.r = static_cast<float>((*style.color)[0]);
+    color.g = static_cast<float>((*style.color)[1]);
+    color.b = static_cast<float>((*style.color)[2]);
+  }
+  if (style.alpha) color.a = static_cast<float>(*style.alpha);
   return color;
 }
 
@@ -98,10 +110,17 @@ std::vector<std_msgs::ColorRGBA> RainbowOf(const std::vector<double>& values) {
   return colors;
 }
 
-Marker PointsOf(const std_msgs::Header& header) {
-  Marker marker = MarkerOf(header, 0, Marker::POINTS, Color(255, 255, 255));
-  marker.scale.x = marker.scale.y = marker.scale.z = kPointSize;
+Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style) {
+  Marker marker = MarkerOf(header, 0, Marker::POINTS, In(style, Color(255, 255, 255)));
+  marker.scale.x = marker.scale.y = marker.scale.z = style.size_m.value_or(kPointSize);
   return marker;
+}
+
+// What each point has, unless all have one colour.
+void Colour(Marker& points, std::vector<std_msgs::ColorRGBA> colors, const ShownStyle& style) {
+  if (style.color) return;
+  for (std_msgs::ColorRGBA& color : colors) color = In(style, color);
+  points.colors = std::move(colors);
 }
 
 ShownMarkers OneOrNone(Marker marker) {
@@ -183,13 +202,13 @@ const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
 }
 
 template <class Message>
-Taken<ShownMarkers> OfBytes(const std::vector<std::uint8_t>& bytes) {
+Taken<ShownMarkers> OfBytes(const std::vector<std::uint8_t>& bytes, const ShownStyle& style) {
   Message message;
   if (!ReadBounded(bytes.data(), bytes.size(), message)) {
     return tl::unexpected(
         Refusal{"unreadable", "a message that is truncated or has a wrong length field"});
   }
-  return ToMarkers(message);
+  return ToMarkers(message, style);
 }
 
 struct ShownType {
@@ -227,30 +246,32 @@ Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA
 
 }  // namespace
 
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message) {
-  Marker sphere = MarkerOf(message.header, 0, Marker::SPHERE, Color(204, 41, 204));
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message, const ShownStyle& style) {
+  Marker sphere = MarkerOf(message.header, 0, Marker::SPHERE, In(style, Color(204, 41, 204)));
   sphere.pose.position = message.point;
-  sphere.scale.x = sphere.scale.y = sphere.scale.z = 0.4;
+  sphere.scale.x = sphere.scale.y = sphere.scale.z = 2 * style.size_m.value_or(0.2);
   return ShownMarkers{sphere};
 }
 
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message) {
-  Marker arrow = MarkerOf(message.header, 0, Marker::ARROW, Color(255, 25, 0));
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message, const ShownStyle& style) {
+  constexpr double kLength = 1.3;
+  const double length = style.size_m.value_or(kLength), share = length / kLength;
+  Marker arrow = MarkerOf(message.header, 0, Marker::ARROW, In(style, Color(255, 25, 0)));
   arrow.pose = message.pose;
-  arrow.points = {PointAt(0, 0, 0), PointAt(1.3, 0, 0)};
-  arrow.scale.x = 0.05;  // RViz's "radius" is a diameter
-  arrow.scale.y = 0.1;
-  arrow.scale.z = 0.3;
+  arrow.points = {PointAt(0, 0, 0), PointAt(length, 0, 0)};
+  arrow.scale.x = 0.05 * share;  // RViz's "radius" is a diameter
+  arrow.scale.y = 0.1 * share;
+  arrow.scale.z = 0.3 * share;
   return ShownMarkers{arrow};
 }
 
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message) {
-  constexpr double kLength = 0.3;
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const ShownStyle& style) {
+  const double length = style.size_m.value_or(0.3);
   constexpr std::size_t kCorners = 6;
   if (message.poses.size() > kMaxMarkerPoints / kCorners) {
     return TooLarge("poses", message.poses.size(), kMaxMarkerPoints / kCorners);
   }
-  Marker lines = MarkerOf(message.header, 0, Marker::LINE_LIST, Color(255, 25, 0));
+  Marker lines = MarkerOf(message.header, 0, Marker::LINE_LIST, In(style, Color(255, 25, 0)));
   lines.scale.x = 0.006;
   for (const geometry_msgs::Pose& pose : message.poses) {
     const Eigen::Vector3d at(pose.position.x, pose.position.y, pose.position.z);
@@ -259,7 +280,7 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message) {
     if (turn.norm() == 0) turn.setIdentity();
     turn.normalize();
     const auto corner = [&](double x, double y) {
-      const Eigen::Vector3d place = at + turn * Eigen::Vector3d(kLength * x, kLength * y, 0);
+      const Eigen::Vector3d place = at + turn * Eigen::Vector3d(length * x, length * y, 0);
       lines.points.push_back(PointAt(place.x(), place.y(), place.z()));
     };
     corner(0, 0);
@@ -272,12 +293,12 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message) {
   return OneOrNone(std::move(lines));
 }
 
-Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message) {
+Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style) {
   if (message.poses.size() > kMaxMarkerPoints) {
     return TooLarge("poses", message.poses.size(), kMaxMarkerPoints);
   }
-  Marker line = MarkerOf(message.header, 0, Marker::LINE_STRIP, Color(25, 255, 0));
-  line.scale.x = 0.02;
+  Marker line = MarkerOf(message.header, 0, Marker::LINE_STRIP, In(style, Color(25, 255, 0)));
+  line.scale.x = style.size_m.value_or(0.02);
   for (const geometry_msgs::PoseStamped& each : message.poses) {
     line.points.push_back(each.pose.position);
   }
@@ -285,7 +306,8 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message) {
   return OneOrNone(std::move(line));
 }
 
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message) {
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
+                              const ShownStyle& style) {
   constexpr double kLeastForce = 5, kLeastTorque = 0.5;  // N, N·m
   constexpr double kMetresPerNewton = 1e-3, kMetresPerNewtonMetre = 1e-2;
   const auto shown = [&](int id, const geometry_msgs::Vector3& vector, double least, double metres,
@@ -293,15 +315,15 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message) {
     const double length = std::hypot(vector.x, vector.y, vector.z);
     // What is not finite goes on, so that it is named as for other markers.
     if (length < least) return Without(message.header, id);
-    return ArrowOf(message.header, id, color, vector, metres);
+    return ArrowOf(message.header, id, In(style, color), vector, metres);
   };
   return ShownMarkers{
       shown(0, message.wrench.force, kLeastForce, kMetresPerNewton, Color(204, 51, 51)),
       shown(1, message.wrench.torque, kLeastTorque, kMetresPerNewtonMetre, Color(204, 204, 51))};
 }
 
-Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message) {
-  Marker points = PointsOf(message.header);
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style) {
+  Marker points = PointsOf(message.header, style);
   const bool has_intensities = message.intensities.size() == message.ranges.size();
   const std::size_t step = StepOf(message.ranges.size());
   std::vector<double> intensities;
@@ -314,11 +336,11 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message) {
     points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
     if (has_intensities) intensities.push_back(static_cast<double>(message.intensities[i]));
   }
-  points.colors = RainbowOf(intensities);
+  Colour(points, RainbowOf(intensities), style);
   return OneOrNone(std::move(points));
 }
 
-Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message) {
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const ShownStyle& style) {
   const auto refuse = [](const std::string& why) {
     return tl::unexpected(Refusal{"cannot be drawn", "a point cloud: " + why});
   };
@@ -332,8 +354,9 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message) {
   const bool has_colors = packed && packed->size() == 4;
   const auto intensity =
       has_colors ? std::nullopt : CloudField::Find(message, {"intensity", "intensities"});
-  Marker points = PointsOf(message.header);
+  Marker points = PointsOf(message.header, style);
   std::vector<double> intensities;
+  std::vector<std_msgs::ColorRGBA> colors;
   const std::uint64_t count = std::uint64_t{message.width} * message.height;
   const std::size_t step = StepOf(count);
   for (std::uint64_t i = 0; i < count; i += step) {
@@ -343,10 +366,10 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message) {
         PointAt(x->Number(point), y->Number(point), z->Number(point));
     if (!std::isfinite(place.x + place.y + place.z)) continue;  // depth cameras send many
     points.points.push_back(place);
-    if (has_colors) points.colors.push_back(packed->Packed(point));
+    if (has_colors) colors.push_back(packed->Packed(point));
     if (intensity) intensities.push_back(intensity->Number(point));
   }
-  if (!has_colors) points.colors = RainbowOf(intensities);
+  Colour(points, has_colors ? std::move(colors) : RainbowOf(intensities), style);
   return OneOrNone(std::move(points));
 }
 

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "server/ros/force_input.h"
 
 namespace kinescope::ros_bridge {
@@ -29,24 +30,30 @@ using ShownMarkers = std::vector<visualization_msgs::Marker>;
 /// makes 3 MB of triangles.
 inline constexpr std::size_t kMostCloudPoints = 4'000;
 
-/// A sphere of 0.4 m.
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message);
+/// A sphere with a radius of 0.2 m.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message,
+                              const ShownStyle& style = {});
 /// An arrow of 1.3 m along x.
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message);
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message,
+                              const ShownStyle& style = {});
 /// Flat arrows of 0.3 m; lines of 6 mm, because a marker has no width in pixels.
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message);
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message,
+                              const ShownStyle& style = {});
 /// A line through the positions, in the frame of the path, as in RViz; 2 cm wide.
-Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message);
+Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style = {});
 /// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m.
-/// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none.
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message);
+/// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none. A size is not taken.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
+                              const ShownStyle& style = {});
 /// Points of 1 cm, coloured by intensity where the scan has it.
-Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message);
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style = {});
 /// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white.
-Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message);
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message,
+                              const ShownStyle& style = {});
 
 /// The markers of serialised bytes; or why there are none.
-using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes);
+using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes,
+                                                 const ShownStyle& style);
 /// Null unless messages of this type are shown.
 ToMarkersOfBytes FindShownMessage(const std::string& md5sum);
 

@@ -61,7 +61,7 @@ template <class Message>
 void CheckShown(const std::vector<std::uint8_t>& bytes) {
   const auto convert = FindShownMessage(ros::message_traits::md5sum<Message>());
   KINESCOPE_CHECK(convert != nullptr);
-  const auto markers = convert(bytes);
+  const auto markers = convert(bytes, {});
   if (markers) {
     CheckMarkers(*markers);
   } else {

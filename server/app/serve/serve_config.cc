@@ -200,20 +200,26 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
 void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   const bool is_bag = IsBag(config.source_url);
   std::vector<GraphRobot> robots = ReadMovingRobots(*options.robot);
-  if (is_bag) config.source.bag.topics = options::SplitItems(*options.marker_topics);
+  if (is_bag) config.source.bag.topics = *options.marker_topics;
   std::vector<GraphRobot> of_graph;
   for (GraphRobot& robot : robots) {
     const bool is_of_bag = is_bag && robot.parameter.empty();
     (is_of_bag ? config.source.bag.robots : of_graph).push_back(std::move(robot));
   }
   if (config.ros) {
-    config.ros->markers = *options.marker_topics;
-    config.ros->robots = std::move(of_graph);
-  } else if (!of_graph.empty()) {
-    throw UsageError(
-        "--robot=" + options.robot.ToText() +
-        ": a robot is moved by the transforms of a ROS graph or of a bag; this server has neither "
-        "(--ros, --source)");
+    config.ros->shown = {*options.marker_topics, std::move(of_graph)};
+    return;
+  }
+  for (const GraphRobot& robot : of_graph) {
+    if (robot.parameter.empty()) {
+      throw UsageError(
+          "--robot=" + options.robot.ToText() +
+          ": a robot is moved by the transforms of a ROS graph or of a bag; this server has "
+          "neither (--ros, --source)");
+    }
+    config.notes.push_back(
+        fmt::format("robot of the parameter {}: not shown, this server has no ROS (--ros)",
+                    robot.parameter));
   }
 }
 

@@ -82,7 +82,6 @@ ServeOptions::ServeOptions()
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
       picture_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}),
-      marker_topics(MarkerTopics()),
       ros_view(true),
       ros_view_camera(CamerasValue(1)),
       ros_view_size({kDefaultPictureWidth, kDefaultPictureHeight}),

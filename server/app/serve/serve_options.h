@@ -8,6 +8,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
+#include "server/picture/ros_names.h"
 #include "server/picture/rviz_option.h"
 #include "server/picture/trail_options.h"
 #include "server/picture/view_options.h"
@@ -68,7 +69,7 @@ struct ServeOptions {
   options::Size picture_size;
   options::Number picture_rate_hz;
   BackendOptions backend;
-  options::Text marker_topics;
+  ShownTopicsValue marker_topics;
   options::Switch ros_view;
   options::Optional<CamerasValue> ros_view_camera;
   options::Size ros_view_size;

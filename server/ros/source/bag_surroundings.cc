@@ -37,9 +37,9 @@ std::string WithSlash(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }
 
-std::set<std::string> AllWithSlash(const std::vector<std::string>& topics) {
-  std::set<std::string> all;
-  for (const std::string& topic : topics) all.insert(WithSlash(topic));
+std::map<std::string, ShownStyle> ByName(const std::vector<ShownTopic>& topics) {
+  std::map<std::string, ShownStyle> all;
+  for (const ShownTopic& topic : topics) all[WithSlash(topic.name)] = topic.style;
   return all;
 }
 
@@ -47,7 +47,7 @@ bool IsWhole(const BagMessage& message) { return message.bytes.size() == message
 
 }  // namespace
 
-BagSurroundings::BagSurroundings(const GraphView& view) : shown_topics_(AllWithSlash(view.topics)) {
+BagSurroundings::BagSurroundings(const GraphView& view) : shown_topics_(ByName(view.topics)) {
   for (const GraphRobot& robot : view.robots) {
     robots_.push_back({RobotFrames(robot.robot, robot.tf_prefix), JointStatesOf(robot)});
   }
@@ -115,7 +115,9 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
     ++counters.rejected["messages of more than 16 MiB"];
     return;
   }
-  const Taken<ShownMarkers> shown = FindShownMessage(message.connection->md5sum)(message.bytes);
+  const ShownStyle& style = shown_topics_.at(WithSlash(message.connection->topic));
+  const Taken<ShownMarkers> shown =
+      FindShownMessage(message.connection->md5sum)(message.bytes, style);
   if (!shown) {
     ++counters.rejected[message.connection->type + ": " + shown.error().kind];
     return;

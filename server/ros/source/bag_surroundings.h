@@ -59,7 +59,7 @@ class BagSurroundings {
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
 
-  const std::set<std::string> shown_topics_;
+  const std::map<std::string, ShownStyle> shown_topics_;  // by name, with its slash
   std::vector<Robot> robots_;
   bool has_new_robots_ = true;
   std::optional<std::int64_t> placed_nanos_;

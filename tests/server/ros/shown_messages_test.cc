@@ -27,10 +27,10 @@ std::vector<std::uint8_t> BytesOfMessage(const Message& message) {
 
 // As the inbox does it: by the type that the connection states. Each of them can be drawn.
 template <class Message>
-ShownMarkers ShownOf(const Message& message) {
+ShownMarkers ShownOf(const Message& message, const ShownStyle& style = {}) {
   const auto convert = FindShownMessage(ros::message_traits::md5sum<Message>());
   if (convert == nullptr) return {};
-  const auto markers = convert(BytesOfMessage(message));
+  const auto markers = convert(BytesOfMessage(message), style);
   if (!markers) return {};
   MarkerStore store;
   for (const Marker& marker : *markers) {
@@ -247,7 +247,7 @@ TEST(ShownMessages, TruncatedOnesAreRefused) {
   const auto convert = FindShownMessage(ros::message_traits::md5sum<nav_msgs::Path>());
   ASSERT_NE(convert, nullptr);
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_FALSE(convert({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}))
+    EXPECT_FALSE(convert({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}, {}))
         << size;
   }
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "server/options/text.h"
 #include "server/ros/bridge.h"
 #include "tests/server/ros/test_person.h"
 
@@ -48,7 +49,9 @@ bool TakeLine(ros_bridge::RosBridge& bridge, SceneState& scene) {
 
 void Listen(const std::string& topics) {
   ros_bridge::BridgeConfig config;
-  config.markers = topics;
+  for (const std::string& name : options::SplitItems(topics)) {
+    config.shown.topics.push_back({name, {}});
+  }
   const auto bridge = ros_bridge::MakeRosBridge(config, ros_bridge::RosMode::kRequired);
   Printer printer;
   SceneState scene;

@@ -11,8 +11,7 @@
 #include "render/renderer.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
-#include "tests/system/ros/ros_fixture.h"
-#include "tests/system/run_program.h"
+#include "tests/system/ros/rviz_fixture.h"
 #include "tests/urdf/mesh_samples.h"
 #include "urdf/robot/robot_kinematics.h"
 
@@ -21,7 +20,7 @@ namespace {
 
 using testing::Process;
 
-constexpr int kWidth = 800, kHeight = 600;
+constexpr int kWidth = 800, kHeight = 600;                     // of RVizProgram's screen
 constexpr double kRvizFov = M_PI / 4;                          // vertical, of its Orbit view
 constexpr std::array<int, 3> kRvizBackground = {0, 255, 255};  // in no robot
 
@@ -76,26 +75,12 @@ Difference Compare(const Sight& a, const Sight& b) {
   return difference;
 }
 
-class RViz : public testing::RosProgram {
+class RViz : public testing::RVizProgram {
  protected:
   void SetUp() override {
-    RosProgram::SetUp();
+    RVizProgram::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    screen_ = std::make_unique<Process>(
-        std::vector<std::string>{KINESCOPE_XVFB, "-displayfd", "1", "-screen", "0",
-                                 fmt::format("{}x{}x24", kWidth, kHeight)});
-    const auto display = screen_->ReadLine(kPatience);
-    ASSERT_TRUE(display) << "Xvfb does not start";
-    setenv("DISPLAY", (":" + *display).c_str(), 1);
-    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    setenv("HOME", folder_.path().c_str(), 1);
-    setenv("ROS_PACKAGE_PATH", folder_.path().c_str(), 1);
     joint_states_ = node_->advertise<sensor_msgs::JointState>("joint_states", 1, true);
-  }
-
-  void Write(const std::string& path, const std::string& bytes) {
-    std::filesystem::create_directories((folder_ / path).parent_path());
-    std::ofstream(folder_ / path, std::ios::binary) << bytes;
   }
 
   // A package of this name, so that RViz finds what is in it.
@@ -112,17 +97,14 @@ class RViz : public testing::RosProgram {
     ros::param::set("/robot_description", xml);
     const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
     Write("view.rviz", Config(model->root_link, orbit));
-    const Process rviz(
-        {"/bin/bash", "-c",
-         fmt::format("exec '{}' -d '{}' --fullscreen --splash-screen '' >'{}' 2>&1", KINESCOPE_RVIZ,
-                     (folder_ / "view.rviz").string(), (folder_ / "rviz.log").string())});
+    const auto rviz = StartRViz();
     const Sight ours = Draw(model, positions, orbit);
     Difference best;
     // RViz does not tell when it has drawn all: it has when it agrees. What a difference costs is
     // the patience.
     const auto agrees = [&] {
       Publish(positions);
-      best = Compare(ours, Grab());
+      best = Compare(ours, SightOf(Grab()));
       return best.iou() > 0.95 && best.thick == 0 && best.other_colored * 50 < best.shared;
     };
     EXPECT_TRUE(Spin(agrees)) << "IoU " << best.iou() << ", " << best.thick
@@ -176,18 +158,16 @@ Window Geometry: {{Height: {}, Width: {}, X: 0, Y: 0, Hide Left Dock: true, Hide
     joint_states_.publish(message);
   }
 
-  Sight Grab() const {
-    const std::string bytes =
-        testing::RunProgram({KINESCOPE_IMPORT, "-window", "root", "-depth", "8", "rgb:-"}).out;
+  static Sight SightOf(const Pixels& pixels) {
     Sight sight;
-    sight.is_robot.resize(kWidth * kHeight);
+    sight.color = pixels;
     sight.color.resize(kWidth * kHeight);
-    if (bytes.size() != 3 * sight.color.size()) return sight;
-    for (std::size_t i = 0; i < sight.color.size(); ++i) {
+    for (const std::array<int, 3>& color : sight.color) {
+      bool is_background = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        sight.color[i][k] = static_cast<std::uint8_t>(bytes[3 * i + k]);
-        if (std::abs(sight.color[i][k] - kRvizBackground[k]) > 2) sight.is_robot[i] = true;
+        is_background = is_background && std::abs(color[k] - kRvizBackground[k]) <= 2;
       }
+      sight.is_robot.push_back(!pixels.empty() && !is_background);
     }
     return sight;
   }
@@ -228,7 +208,6 @@ Window Geometry: {{Height: {}, Width: {}, X: 0, Y: 0, Hide Left Dock: true, Hide
     return sight;
   }
 
-  std::unique_ptr<Process> screen_;
   ros::Publisher joint_states_;
 };
 

@@ -168,10 +168,12 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   };
   EXPECT_THAT(CountsOf(Read(write)), ElementsAre(0, 0, 0, 0, 0, 0));
   GraphView view;
-  view.topics = {"goal"};
+  view.topics = {{"goal", {Rgb{0, 0.5, 1}, 0.5, 0.05}}};
   const Recorded recorded = Read(write, view);
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_EQ(recorded.markers.back()[0]->pose.position.x(), 2);
+  EXPECT_EQ(recorded.markers.back()[0]->color, Eigen::Vector4d(0, 0.5, 1, 0.5));
+  EXPECT_FLOAT_EQ(recorded.markers.back()[0]->scale.x(), 0.1F);
   EXPECT_THAT(recorded.counters.rejected,
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
 }

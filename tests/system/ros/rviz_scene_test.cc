@@ -1,0 +1,275 @@
+// A scene of a lab, shown by RViz and by `kinescope serve --rviz` with the configuration that RViz
+// has saved: a robot that TF moves, a point cloud, a path, a pose, a marker, and the person.
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/system/ros/rviz_fixture.h"
+
+namespace kinescope {
+namespace {
+
+using testing::Process;
+
+constexpr char kArm[] =
+    "<robot name='arm'><link name='base'><visual><origin xyz='0 0 0.25'/><geometry>"
+    "<cylinder radius='0.12' length='0.5'/></geometry><material name='b'>"
+    "<color rgba='0.1 0.25 0.9 1'/></material></visual></link>"
+    "<link name='hand'><visual><origin xyz='0.3 0 0'/><geometry><box size='0.6 0.12 0.12'/>"
+    "</geometry><material name='y'><color rgba='0.9 0.8 0.05 1'/></material></visual></link>"
+    "<joint name='lift' type='revolute'><parent link='base'/><child link='hand'/>"
+    "<origin xyz='0 0 0.55'/><axis xyz='0 -1 0'/><limit lower='-2' upper='2' effort='1' "
+    "velocity='1'/></joint></robot>";
+
+constexpr char kConfig[] = R"(Panels: []
+Visualization Manager:
+  Class: ""
+  Displays:
+    - {Class: rviz/RobotModel, Name: Arm, Enabled: true, Value: true, Alpha: 1,
+       Robot Description: robot_description, Visual Enabled: true, Collision Enabled: false}
+    - {Class: rviz/PointCloud2, Name: Cloud, Enabled: true, Value: true, Topic: /cloud, Alpha: 1,
+       Style: Boxes, Size (m): 0.03, Color Transformer: FlatColor, Color: 230; 30; 220}
+    - {Class: rviz/Path, Name: Plan, Enabled: true, Value: true, Topic: /plan, Alpha: 1,
+       Line Style: Billboards, Line Width: 0.06, Color: 20; 220; 30}
+    - {Class: rviz/Marker, Name: Wall, Enabled: true, Value: true, Marker Topic: /wall,
+       Namespaces: {}}
+  Enabled: true
+  Global Options: {Background Color: 238; 240; 243, Fixed Frame: world, Frame Rate: 10}
+  Tools: [{Class: rviz/Interact}]
+  Value: true
+  Views:
+    Current:
+      Class: rviz/Orbit
+      Name: Current View
+      Target Frame: <Fixed Frame>
+      Distance: 5.2
+      Yaw: 0.7
+      Pitch: 0.45
+      Near Clip Distance: 0.01
+      Focal Point: {X: 0.6, Y: 0.2, Z: 0.5}
+      Focal Shape Fixed Size: false
+      Focal Shape Size: 0.0001
+    Saved: ~
+Window Geometry: {Height: 600, Width: 800, X: 0, Y: 0, Hide Left Dock: true, Hide Right Dock: true}
+)";
+
+// A thing of the scene: nothing else there has its tint.
+struct Thing {
+  const char* name;
+  std::array<int, 3> color;
+};
+constexpr std::array<Thing, 5> kThings = {{{"base", {26, 64, 230}},
+                                           {"hand", {230, 204, 13}},
+                                           {"cloud", {230, 30, 220}},
+                                           {"path", {20, 220, 30}},
+                                           {"wall", {230, 30, 20}}}};
+
+struct Place {
+  double x = 0, y = 0;  // px, the middle of its pixels
+  int pixels = 0;
+};
+
+// Light differs, tint does not: the share that each channel has in the sum.
+Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels, int width) {
+  Place place;
+  const double whole = thing.color[0] + thing.color[1] + thing.color[2];
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double sum = pixels[i][0] + pixels[i][1] + pixels[i][2];
+    if (sum < 60) continue;
+    double off = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      off += std::abs(pixels[i][k] / sum - thing.color[k] / whole);
+    }
+    if (off > 0.25) continue;
+    place.x += static_cast<double>(i % static_cast<std::size_t>(width));
+    place.y += static_cast<double>(i / static_cast<std::size_t>(width));
+    ++place.pixels;
+  }
+  if (place.pixels == 0) return place;
+  place.x /= place.pixels;
+  place.y /= place.pixels;
+  return place;
+}
+
+class RVizScene : public testing::RVizProgram {
+ protected:
+  void SetUp() override {
+    RVizProgram::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    ros::param::set("/robot_description", std::string(kArm));
+    joints_ = node_->advertise<sensor_msgs::JointState>("joint_states", 1, true);
+    PublishLatched<tf2_msgs::TFMessage>("/tf_static", WhereTheArmStands());
+    PublishLatched<sensor_msgs::PointCloud2>("/cloud", Cloud());
+    PublishLatched<nav_msgs::Path>("/plan", Plan());
+    PublishLatched<visualization_msgs::Marker>("/wall", Wall());
+  }
+
+  // Of RViz itself: saves its configuration.
+  bool SaveConfig(const std::string& file) {
+    ros::ServiceClientOptions options("/rviz/save_config", "*", false, {});
+    ros::ServiceClient client = node_->serviceClient(options);
+    std_msgs::String path;
+    std_msgs::Bool is_done;
+    path.data = file;
+    return client.exists() && client.call(path, is_done, "*") && is_done.data;
+  }
+
+  void MoveArm() {
+    sensor_msgs::JointState message;
+    message.header.stamp = ros::Time::now();
+    message.name = {"lift"};
+    message.position = {0.4};
+    joints_.publish(message);
+  }
+
+ private:
+  template <class Message>
+  void PublishLatched(const std::string& topic, const Message& message) {
+    latched_.push_back(node_->advertise<Message>(topic, 1, true));
+    latched_.back().publish(message);
+  }
+
+  static tf2_msgs::TFMessage WhereTheArmStands() {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    auto& transform = message.transforms[0];
+    transform.header.frame_id = "world";
+    transform.child_frame_id = "base";
+    transform.transform.translation.x = 1.3;
+    transform.transform.translation.y = 0.6;
+    transform.transform.rotation.z = std::sin(-0.6);
+    transform.transform.rotation.w = std::cos(-0.6);
+    return message;
+  }
+
+  static sensor_msgs::PointCloud2 Cloud() {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.frame_id = "world";
+    cloud.height = 1;
+    cloud.fields.resize(3);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      cloud.fields[i].name = std::string(1, "xyz"[i]);
+      cloud.fields[i].offset = 4 * i;
+      cloud.fields[i].datatype = sensor_msgs::PointField::FLOAT32;
+      cloud.fields[i].count = 1;
+    }
+    cloud.point_step = 12;
+    for (int i = 0; i < 20; ++i) {
+      for (int k = 0; k < 20; ++k) {
+        const std::array<float, 3> point = {1.1F + 0.03F * static_cast<float>(i), -0.9F,
+                                            0.3F + 0.03F * static_cast<float>(k)};
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+        cloud.data.insert(cloud.data.end(), bytes, bytes + 12);
+      }
+    }
+    cloud.width = 400;
+    cloud.row_step = 12 * cloud.width;
+    cloud.is_dense = 1U;
+    return cloud;
+  }
+
+  static nav_msgs::Path Plan() {
+    nav_msgs::Path path;
+    path.header.frame_id = "world";
+    for (int i = 0; i <= 30; ++i) {
+      geometry_msgs::PoseStamped pose;
+      pose.header.frame_id = "world";
+      pose.pose.position.x = 0.9 + 0.05 * i;
+      pose.pose.position.y = -0.3 + 0.2 * std::sin(0.2 * i);
+      pose.pose.position.z = 0.05;
+      pose.pose.orientation.w = 1;
+      path.poses.push_back(pose);
+    }
+    return path;
+  }
+
+  static visualization_msgs::Marker Wall() {
+    visualization_msgs::Marker wall;
+    wall.header.frame_id = "world";
+    wall.ns = "walls";
+    wall.type = visualization_msgs::Marker::CUBE;
+    wall.pose.position.x = 0.4;
+    wall.pose.position.y = 1.2;
+    wall.pose.position.z = 0.3;
+    wall.pose.orientation.w = 1;
+    wall.scale.x = 0.4;
+    wall.scale.y = 0.1;
+    wall.scale.z = 0.6;
+    wall.color.r = 0.9F;
+    wall.color.g = 0.12F;
+    wall.color.b = 0.08F;
+    wall.color.a = 1;
+    return wall;
+  }
+
+  ros::Publisher joints_;
+  std::vector<ros::Publisher> latched_;
+};
+
+TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
+  Write("view.rviz", kConfig);
+  const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
+  const auto rviz = StartRViz();
+  const std::string saved = (folder_ / "saved.rviz").string();
+  ASSERT_TRUE(Spin([&] { return SaveConfig(saved); }))
+      << testing::ReadFile(folder_ / "rviz.log");
+  const auto serve = Start(
+      "serve demo:n_pose --ros required --http_port 0 --ros_view_size 800x600 --ros_view_rate_hz 5 "
+      "--rviz '" +
+      saved + "'");
+  Pixels ours, theirs;
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const sensor_msgs::Image& image) {
+    ours.resize(kWidth * kHeight);
+    if (image.data.size() != 3 * ours.size()) return;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) ours[i][k] = image.data[3 * i + k];
+    }
+  });
+  std::string told;
+  // Neither says when it has drawn all: they have when they agree.
+  const auto agree = [&] {
+    MoveArm();
+    if (ours.empty()) return false;
+    theirs = Grab();
+    told.clear();
+    bool is_same = true;
+    for (const Thing& thing : kThings) {
+      const Place a = PlaceOf(thing, theirs, kWidth), b = PlaceOf(thing, ours, kWidth);
+      told += fmt::format("{}: RViz {:.1f} {:.1f} ({} px), Kinescope {:.1f} {:.1f} ({} px)\n",
+                          thing.name, a.x, a.y, a.pixels, b.x, b.y, b.pixels);
+      const bool is_there = a.pixels > 300 && b.pixels > 300;
+      const double ratio = is_there ? static_cast<double>(b.pixels) / a.pixels : 0;
+      is_same = is_same && std::hypot(a.x - b.x, a.y - b.y) <= 3 && ratio > 0.8 && ratio < 1.25;
+    }
+    return is_same;
+  };
+  EXPECT_TRUE(Spin(agree)) << told << testing::ReadFile(folder_ / "rviz.log");
+  fmt::print("{}", told);
+  for (const auto& [name, pixels] : {std::pair("rviz", &theirs), std::pair("kinescope", &ours)}) {
+    std::string ppm = fmt::format("P6 {} {} 255\n", kWidth, kHeight);
+    for (const std::array<int, 3>& color : *pixels) {
+      for (const int channel : color) ppm += static_cast<char>(channel);
+    }
+    const std::filesystem::path folder = KINESCOPE_SCREENSHOTS;
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / fmt::format("scene_{}.ppm", name), std::ios::binary) << ppm;
+  }
+}
+
+}  // namespace
+}  // namespace kinescope
