@@ -10,6 +10,7 @@
 #include "core/system/errors.h"
 #include "render/camera/camera.h"
 #include "server/picture/camera_options.h"
+#include "server/picture/ros_names.h"
 #include "tests/shared_data.h"
 
 namespace kinescope::app {
@@ -224,8 +225,70 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[0].line, 4);
   EXPECT_TRUE(picture.topics[1].is_marker);
   EXPECT_EQ(picture.topics[2].name, "/plan");
+  EXPECT_EQ(picture.topics[2].style, "");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("rviz/Odometry 'Odometry' is not drawn")));
+}
+
+TEST(RvizFile, HasColoursOpacityAndSizesOfDisplays) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/PointStamped, Enabled: true, Topic: /a, Color: 255; 0; 16, Alpha: 0.5, Radius: 0.1}
+    - {Class: rviz/Pose, Enabled: true, Topic: /b, Shape: Axes, Shaft Length: 0.5, Head Length: 0.25}
+    - {Class: rviz/Path, Enabled: true, Topic: /c, Color: 25; 255; 0, Line Style: Lines, Line Width: 0.2}
+    - {Class: rviz/Path, Enabled: true, Topic: /d, Line Style: Billboards, Line Width: 0.2}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /e, Color Transformer: FlatColor,
+       Color: "#00ff80", Style: Boxes, Size (m): 0.03}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /f, Color Transformer: RGB8,
+       Color: 1; 2; 3, Style: Points, Size (m): 0.03}
+    - {Class: rviz/LaserScan, Enabled: true, Topic: /g, Color Transformer: AxisColor, Size (m): -1}
+    - {Class: rviz/WrenchStamped, Enabled: true, Topic: /h, Force Color: 1; 2; 3}
+    - {Class: rviz/PoseArray, Enabled: true, Topic: /i, Arrow Length: 0.5}
+)");
+  std::vector<std::string> styles;
+  std::string all;
+  for (const RvizPicture::Topic& topic : picture.topics) {
+    styles.push_back(topic.style);
+    all += (all.empty() ? "" : ",") + topic.name + topic.style;
+  }
+  EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(size=0.75)",
+                                  "(color=#19ff00)", "(size=0.2)", "(color=#00ff80,size=0.03)", "",
+                                  "", "(color=#010203)", "(size=0.5)"));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Shape 'Axes' is drawn as a plain arrow")));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Color Transformer 'AxisColor' is not taken")));
+  ShownTopicsValue value;
+  value.Parse(all);
+  ASSERT_EQ(value->size(), 9u);
+  EXPECT_EQ((*value)[0].style.alpha, 0.5);
+  EXPECT_EQ((*value)[0].style.size_m, 0.1);
+  EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
+  EXPECT_EQ((*value)[8].name, "/i");
+}
+
+TEST(RvizFile, RefusesStylesThatSayNothing) {
+  for (const char* bad : {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)", "/a(alpha=2)",
+                          "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
+    ShownTopicsValue value;
+    EXPECT_THROW(value.Parse(bad), options::BadValue) << bad;
+  }
+}
+
+TEST(RvizFile, HasTheModelsThatAGraphDescribes) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/RobotModel, Enabled: true, Name: Human, Robot Description: human_description}
+    - {Class: rviz/RobotModel, Enabled: false, Name: Off, Robot Description: other}
+    - {Class: rviz/RobotModel, Enabled: true, Name: Arm, TF Prefix: lab/arm}
+    - {Class: rviz/RobotModel, Enabled: true, Name: Bad, Robot Description: a b}
+)");
+  ASSERT_EQ(picture.robots.size(), 2u);
+  EXPECT_EQ(picture.robots[0].option, "ros:human_description");
+  EXPECT_EQ(picture.robots[1].option, "ros:robot_description@tf:lab/arm");
+  EXPECT_EQ(picture.robots[1].display, "rviz/RobotModel 'Arm'");
+  EXPECT_EQ(picture.robots[1].line, 6);
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("rviz/RobotModel 'Bad' is not drawn: 'a b'")));
 }
 
 TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {
