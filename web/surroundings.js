@@ -111,13 +111,21 @@ export class Surroundings {
   }
 }
 
+/** A whole number that the file has with a node; null: none.
+ *  @param {THREE.Object3D|null} node
+ *  @param {string} name */
+function numberIn(node, name) {
+  const value = /** @type {Record<string, unknown>} */ (node?.userData ?? {})[name];
+  return typeof value === 'number' && Number.isInteger(value) && value >= 0 ? value : null;
+}
+
 /** The nodes of the links of each robot that moves, by the numbers in the file.
  *  @param {THREE.Object3D} scene */
 function linksOf(scene) {
   /** @type {THREE.Object3D[][]} */ const robots = [];
   scene.traverse((node) => {
-    const { link } = node.userData, robot = node.parent?.userData.robot;
-    if (link === undefined || robot === undefined) return;
+    const link = numberIn(node, 'link'), robot = numberIn(node.parent, 'robot');
+    if (link === null || robot === null) return;
     robots[robot] ??= [];
     robots[robot][link] = node;
   });

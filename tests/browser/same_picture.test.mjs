@@ -7,6 +7,7 @@ import { connect, createServer } from 'node:net';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
+import { setTimeout } from 'node:timers/promises';
 import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot, settled } from './open_page.mjs';
 import {
   cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, stateOf, whatCovers,
@@ -132,15 +133,25 @@ async function startMaster() {
   }
 }
 
-test('markers of another ROS node cover the same pixels on the page and in a snapshot', async () => {
+/** Until the URDF of a robot has been read from the parameter server. */
+async function robotIsThere(url) {
+  for (;;) {
+    const { ros } = await (await fetch(`${url}api/v1/diagnostics`)).json();
+    if (ros.inputs['robot /arm_description'].used > 0) return;
+    await setTimeout(100);
+  }
+}
+
+test('markers and a robot of other ROS nodes cover the same pixels on the page and in a snapshot', async () => {
   const { env, stop } = await startMaster();
   const publisher = spawn(process.env.KINESCOPE_MARKER_PUBLISHER, [], { stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, ...env } });
   endWithTests(publisher);
   const file = await record('n_pose', 1, []);
   const live = ['--loop', '--picture_size', '64x64'];
-  const marked = ['--ros', 'required', '--marker_topics', '/samples'];
+  const marked = ['--ros', 'required', '--marker_topics', '/samples', '--robot', 'ros:/arm_description'];
   const site = await serve(file, [...live, ...marked], env);
   await once(createInterface({ input: publisher.stdout }), 'line');  // it has a subscriber
+  await robotIsThere(site.url);
   const { page, problems, close } = await openPage(site.url);
   await page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
     name.includes('surroundings.glb') && responseEnd > 0), null, LONG);
@@ -152,6 +163,7 @@ test('markers of another ROS node cover the same pixels on the page and in a sna
   await site.stop();
   const snapshot = async (options, itsEnv) => {
     const { url, stop: stopIt } = await serve(file, [...live, ...sameCamera, ...options], itsEnv);
+    if (options.length > 0) await robotIsThere(url);
     const watcher = await openPage(url);
     await watcher.page.waitForFunction((wanted) => {
       const isRecording = document.getElementById('status-word').textContent.startsWith('Recording');

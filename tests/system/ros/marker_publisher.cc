@@ -1,6 +1,8 @@
 // Publishes one marker of each type, but for the mesh, on /samples, and says `published` on its
-// standard output when a subscriber is there. Until the end of its standard input.
+// standard output when a subscriber is there; a robot's URDF as /arm_description, and where its
+// links are on /tf_static. Until the end of its standard input.
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <iostream>
@@ -48,9 +50,38 @@ visualization_msgs::Marker ToMessage(const SceneMarker& marker) {
   return message;
 }
 
+constexpr char kArm[] =
+    "<robot name='arm'><link name='arm_base'><visual><geometry><cylinder radius='0.08' "
+    "length='0.5'/></geometry></visual></link><link name='arm_hand'><visual><geometry><box "
+    "size='0.1 0.3 0.1'/></geometry></visual></link><joint name='arm_joint' type='revolute'>"
+    "<parent link='arm_base'/><child link='arm_hand'/><axis xyz='1 0 0'/>"
+    "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
+
+tf2_msgs::TFMessage PlacesOfArm() {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(2);
+  auto& base = message.transforms[0];
+  base.header.frame_id = "world";
+  base.child_frame_id = "arm_base";
+  base.transform.translation.x = 0.2;
+  base.transform.translation.y = -0.45;
+  base.transform.translation.z = 1.2;
+  base.transform.rotation.w = 1;
+  auto& hand = message.transforms[1];
+  hand.header.frame_id = "arm_base";
+  hand.child_frame_id = "arm_hand";
+  hand.transform.translation.z = 0.35;
+  hand.transform.rotation.x = 0.3826834;  // 45 degrees
+  hand.transform.rotation.w = 0.9238795;
+  return message;
+}
+
 int Main(int argc, char** argv) {
   ros::init(argc, argv, "marker_publisher");
   ros::NodeHandle node;
+  node.setParam("/arm_description", kArm);
+  const ros::Publisher places = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  places.publish(PlacesOfArm());
   visualization_msgs::MarkerArray array;
   for (const SceneMarker& marker : testing::MarkersOfAllTypes("")) {
     if (marker.type != MarkerType::kMesh) array.markers.push_back(ToMessage(marker));
