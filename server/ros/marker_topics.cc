@@ -76,9 +76,10 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
                              said("type").substr(0, kLongestMarkerType), NamesOfShownMessages())});
 }
 
-void MarkerInbox::TakeShown(std::size_t topic, const Taken<ShownMarkers>& markers,
+void MarkerInbox::TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
                             std::int64_t monotonic_nanos) {
   if (!markers) return Refuse(topic, markers.error());
+  NameByTopic(*markers, topics_[topic].name);
   for (const visualization_msgs::Marker& marker : *markers) {
     if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos)) {
       return Refuse(topic, *refusal);

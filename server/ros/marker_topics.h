@@ -54,7 +54,7 @@ class MarkerInbox {
 
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
-  void TakeShown(std::size_t topic, const Taken<ShownMarkers>& markers,
+  void TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
                  std::int64_t monotonic_nanos);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);

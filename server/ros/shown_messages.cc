@@ -380,6 +380,10 @@ ToMarkersOfBytes FindShownMessage(const std::string& md5sum) {
   return nullptr;
 }
 
+void NameByTopic(ShownMarkers& markers, const std::string& topic) {
+  for (Marker& marker : markers) marker.ns = topic.substr(topic.find_first_not_of('/'));
+}
+
 std::string NamesOfShownMessages() {
   std::string names;
   for (const ShownType& type : ShownTypes())

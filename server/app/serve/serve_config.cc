@@ -134,6 +134,10 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   const CameraChoice& camera =
       options.ros_view_camera ? (*options.ros_view_camera).front() : options.camera->front();
   CameraOptions options_of_ros;
+  if (!options.ros_view_camera) {  // then it is the camera of the live picture, but still
+    options_of_ros.fov = options.camera_moves.fov;
+    options_of_ros.projection = options.camera_moves.projection;
+  }
   options_of_ros.camera_frame = CameraFrame::kWorld;  // as RViz's views
   settings.camera = CameraController(camera, options_of_ros);
   settings.width = options.ros_view_size->width;

@@ -116,7 +116,7 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
     return;
   }
   const ShownStyle& style = shown_topics_.at(WithSlash(message.connection->topic));
-  const Taken<ShownMarkers> shown =
+  Taken<ShownMarkers> shown =
       FindShownMessage(message.connection->md5sum)(message.bytes, style);
   if (!shown) {
     ++counters.rejected[message.connection->type + ": " + shown.error().kind];
@@ -125,6 +125,7 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
   const auto number = NumberOf(message.connection->topic, counters);
   if (!number) return;
   has_markers_ = true;
+  NameByTopic(*shown, WithSlash(message.connection->topic));
   for (const visualization_msgs::Marker& marker : *shown) {
     if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos)) {
       ++counters.rejected[message.connection->type + ": " + refusal->kind];

@@ -172,6 +172,7 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   const Recorded recorded = Read(write, view);
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_EQ(recorded.markers.back()[0]->pose.position.x(), 2);
+  EXPECT_EQ(recorded.markers.back()[0]->ns, "goal");
   EXPECT_EQ(recorded.markers.back()[0]->color, Eigen::Vector4d(0, 0.5, 1, 0.5));
   EXPECT_FLOAT_EQ(recorded.markers.back()[0]->scale.x(), 0.1F);
   EXPECT_THAT(recorded.counters.rejected,
