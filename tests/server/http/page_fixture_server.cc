@@ -248,7 +248,7 @@ json Describe() {
   robot.model = drawn;
   robot.moves = true;
   robot.world_from_link = {
-      Eigen::Isometry3d(Eigen::Translation3d(3, 2, 1) * Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5))};
+      Eigen::Isometry3d(Eigen::Translation3d(3, 2, 1) * Eigen::Quaterniond(0.8, 0.36, -0.48, 0))};
   state.robots = {robot};
   json people = json::array();
   for (const PersonState& person : state.people) {
@@ -338,7 +338,7 @@ json Describe() {
             {"people", people},
             {"objects", objects},
             {"ghosts", json::array()},
-            {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {-0.5, 0.5, 0.5, 0.5}}}}}}}},
+            {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {0.36, -0.48, 0, 0.8}}}}}}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},

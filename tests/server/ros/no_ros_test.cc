@@ -44,7 +44,7 @@ TEST(WithoutRos, PublishingIsRejectedWithARemedy) {
 
 TEST(WithoutRos, ABagIsRejectedByNameWithARemedy) {
   try {
-    OpenBag("take.bag");
+    (void)OpenBag("take.bag");
     FAIL() << "opened a bag without ROS";
   } catch (const SourceError& error) {
     EXPECT_THAT(error.what(), HasSubstr("bag 'take.bag'"));

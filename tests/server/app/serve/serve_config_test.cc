@@ -46,7 +46,7 @@ TEST(ServeConfig, HasNeitherPageNorPicturesForABridge) {
   EXPECT_FALSE(config.ros_camera);
   ASSERT_TRUE(config.ros) << "without ROS in this build, the bridge reports that";
   EXPECT_FALSE(config.ros->with_view);
-  EXPECT_EQ(config.ros->markers, "");
+  EXPECT_TRUE(config.ros->shown.is_empty());
 }
 
 TEST(ServeConfig, UdpPortReplacesTheSource) {

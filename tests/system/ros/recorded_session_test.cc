@@ -1,0 +1,122 @@
+// What `rosbag record -a` keeps of a session is drawn as its source is, with what other nodes
+// published meanwhile.
+#include <gtest/gtest.h>
+#include <ros/network.h>
+#include <signal.h>
+#include <tf2_msgs/TFMessage.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "render/image/png_file.h"
+#include "tests/system/ros/ros_fixture.h"
+#include "tests/system/run_program.h"
+
+namespace kinescope {
+namespace {
+
+using testing::KinescopePath;
+using testing::Process;
+using testing::RunProgram;
+
+constexpr char kArm[] =
+    "<robot name='arm'><link name='arm_base'><visual><geometry><box size='0.3 0.3 1'/></geometry>"
+    "<material name='y'><color rgba='0.9 0.8 0.05 1'/></material></visual></link></robot>";
+
+class RecordedSession : public testing::RosProgram {
+ protected:
+  // The topics that the node has a connection to the recorder for.
+  std::set<std::string> Recorded(const std::string& node) const {
+    XmlRpc::XmlRpcValue name, found, bus;
+    name[0] = "/test";
+    name[1] = node;
+    XmlRpc::XmlRpcClient master("127.0.0.1", port_.number(), "/");
+    if (!master.execute("lookupNode", name, found) || int(found[0]) != 1) return {};
+    std::string host;
+    std::uint32_t port = 0;
+    ros::network::splitURI(std::string(found[2]), host, port);
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+    XmlRpc::XmlRpcValue caller;
+    caller[0] = "/test";
+    if (!client.execute("getBusInfo", caller, bus)) return {};
+    std::set<std::string> topics;
+    for (int i = 0; i < bus[2].size(); ++i) {
+      const bool is_out = std::string(bus[2][i][2]) == "o";
+      if (is_out && std::string(bus[2][i][1]) == "/recorder") topics.insert(bus[2][i][4]);
+    }
+    return topics;
+  }
+
+  static std::size_t YellowPixels(const render::Image& image) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+      const std::uint8_t* const p = &image.rgba[i];
+      count += p[0] > 100 && p[1] > 90 && p[2] < 60 ? 1 : 0;
+    }
+    return count;
+  }
+
+  render::Image Render(const std::string& source, const std::vector<std::string>& more) const {
+    const std::string file = (folder_ / "picture.png").string();
+    std::vector<std::string> command = {KinescopePath(), "render",     source,   "--time",
+                                        "1.5",           "--size",     "640x480", "--camera",
+                                        "front",         "--no_overlays", "--force", "--out",
+                                        file};
+    command.insert(command.end(), more.begin(), more.end());
+    const auto result = RunProgram(command);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return render::ReadPng(file);
+  }
+};
+
+TEST_F(RecordedSession, IsDrawnAsItsSourceIsAndWithWhatOtherNodesPublished) {
+  const std::string source = (folder_ / "lift.mvnx").string();
+  const std::string bag = (folder_ / "session.bag").string();
+  ASSERT_EQ(RunProgram({KinescopePath(), "convert", "demo:lift", "--seconds", "2", "--rate_hz", "60",
+                        "--out", source})
+                .exit_code,
+            0);
+  tf2_msgs::TFMessage place;
+  place.transforms.resize(1);
+  place.transforms[0].header.frame_id = "world";
+  place.transforms[0].child_frame_id = "arm_base";
+  place.transforms[0].transform.translation.y = 0.8;
+  place.transforms[0].transform.translation.z = 0.5;
+  place.transforms[0].transform.rotation.w = 1;
+  const ros::Publisher places = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  places.publish(place);
+  const auto bridge = Start("bridge udp://127.0.0.1:0 --ros required");
+  const std::string address = WaitForAddress(*bridge);
+  Process recorder({KINESCOPE_ROSBAG_RECORD, "-a", "-O", bag, "__name:=recorder"});
+  ASSERT_TRUE(Spin([&] {
+    const std::set<std::string> topics = Recorded("/kinescope");
+    return topics.count("/tf") != 0 && topics.count("/kinescope/link_states") != 0 &&
+           places.getNumSubscribers() > 0;
+  }));
+  EXPECT_EQ(Start("stream '" + source + "' --to " + address)->WaitForEnd(), 0);
+  recorder.Signal(SIGINT);
+  recorder.WaitForEnd();
+
+  const render::Image expected = Render(source, {}), drawn = Render(bag, {});
+  ASSERT_EQ(drawn.rgba.size(), expected.rgba.size());
+  double squares = 0;
+  for (std::size_t i = 0; i < drawn.rgba.size(); ++i) {
+    squares += std::pow(static_cast<double>(drawn.rgba[i]) - expected.rgba[i], 2);
+  }
+  const double psnr =
+      10 * std::log10(255.0 * 255 / (squares / static_cast<double>(drawn.rgba.size())));
+  EXPECT_GT(psnr, 35);
+  const std::string urdf = (folder_ / "arm.urdf").string();
+  std::ofstream(urdf) << kArm;
+  EXPECT_GT(YellowPixels(Render(bag, {"--robot", urdf + "@tf"})), YellowPixels(drawn) + 2000);
+  const auto elsewhere = RunProgram({KinescopePath(), "render", source, "--robot", urdf + "@tf",
+                                     "--out", (folder_ / "x.png").string()});
+  EXPECT_NE(elsewhere.exit_code, 0);
+  EXPECT_NE(elsewhere.err.find("is no ROS bag"), std::string::npos) << elsewhere.err;
+}
+
+}  // namespace
+}  // namespace kinescope
