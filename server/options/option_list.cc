@@ -92,6 +92,12 @@ void OptionList::CheckEffects() const {
   }
 }
 
+bool OptionList::HasEffect(const std::string& name) const {
+  return std::none_of(conditions_.begin(), conditions_.end(), [&](const Condition& condition) {
+    return condition.name == name && condition.is_so();
+  });
+}
+
 void OptionList::OnSet(Option& option, const std::string& given_name, Channel channel,
                        const std::string& origin) {
   option.channel = channel;

@@ -65,6 +65,8 @@ class OptionList {
   /// launch file sets all of its own.
   /// @throws UsageError: "--trail_secs=3: has no effect without --trail".
   void CheckEffects() const;
+  /// Whether the option of that name does anything as the others are now.
+  [[nodiscard]] bool HasEffect(const std::string& name) const;
 
   /// One sentence for each former name of an option or a word that was given.
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -91,7 +91,7 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
     options::Option* const option = list.Find(setting.option);
     if (option == nullptr) {
       missing += (missing.empty() ? "" : ", ") + setting.option;
-    } else if (option->channel == Channel::kDefault &&
+    } else if (option->channel == Channel::kDefault && list.HasEffect(setting.option) &&
                !(has_camera && IsPartOfView(setting.option))) {
       const std::string origin = fmt::format("{}:{}: ", *file, setting.line);
       list.Set(*option, setting.option, {setting.text, origin}, Channel::kFile);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
@@ -11,7 +12,9 @@
 #include "render/camera/camera.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/ros_names.h"
+#include "server/picture/rviz_option.h"
 #include "tests/shared_data.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
@@ -289,6 +292,22 @@ Visualization Manager:
   EXPECT_EQ(picture.robots[1].display, "rviz/RobotModel 'Arm'");
   EXPECT_EQ(picture.robots[1].line, 6);
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("rviz/RobotModel 'Bad' is not drawn: 'a b'")));
+}
+
+TEST(RvizOption, LeavesOutWhatHasNoEffect) {
+  const kinescope::testing::TempFolder folder;
+  const std::string file = folder / "lab.rviz";
+  std::ofstream(file) << WithView("      {Class: rviz/Orbit}\n");
+  options::FilePath rviz;
+  rviz.Parse(file);
+  for (const bool has_pictures : {true, false}) {
+    CamerasValue camera(1);
+    options::OptionList list;
+    list("camera", camera, "where the camera stands");
+    list.HasNoEffect("camera", "with --pictures=off", [&] { return !has_pictures; });
+    ApplyRviz(rviz, kPictureHeight, list);
+    EXPECT_EQ(list.Find("camera")->channel == options::Channel::kFile, has_pictures);
+  }
 }
 
 TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {
