@@ -1,5 +1,5 @@
-/// What is shown of a ROS graph, or of a bag, beside its people and its markers. No ROS type appears
-/// here.
+/// What is shown of a ROS graph, or of a bag, beside its people and its markers. No ROS type
+/// appears here.
 #pragma once
 
 #include <optional>

@@ -29,8 +29,7 @@ class Document {
  public:
   Document() {
     const Eigen::Quaterniond turn(rig::GlbAxes());
-    nodes_ = {{{"name", "surroundings"},
-               {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}}};
+    nodes_ = {{{"name", "surroundings"}, {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}}};
     json& document = glb_.document();
     // Colours are those of the vertices.
     const json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.7}};
@@ -56,8 +55,8 @@ class Document {
   /// A node with one node for each of `links`, whose places are not in the file.
   void AddMovingRobot(const std::string& name, std::size_t number,
                       const std::vector<std::vector<Part>>& links) {
-    const std::size_t robot = AddNode(
-        {{"name", PrintableLine(name)}, {"extras", {{"robot", number}}}}, kRoot);
+    const std::size_t robot =
+        AddNode({{"name", PrintableLine(name)}, {"extras", {{"robot", number}}}}, kRoot);
     for (std::size_t link = 0; link < links.size(); ++link) {
       const auto mesh = AddMesh(links[link]);
       if (mesh) AddNode({{"mesh", *mesh}, {"extras", {{"link", link}}}}, robot);

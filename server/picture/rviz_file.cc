@@ -29,10 +29,10 @@ using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
-constexpr double kDarkest = 48.0 / 255;  // RViz's own background
-constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
-constexpr double kFarthest = 1000;       // m, of a camera
-constexpr double kSmallestShown = 0.001; // m
+constexpr double kDarkest = 48.0 / 255;   // RViz's own background
+constexpr double kLeastAhead = 0.1;       // m, from a camera to its target
+constexpr double kFarthest = 1000;        // m, of a camera
+constexpr double kSmallestShown = 0.001;  // m
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -185,11 +185,11 @@ class RvizReader {
     const std::string name = TextOf(display, "Robot Description", "robot_description"),
                       prefix = TextOf(display, "TF Prefix", "");
     if (IsTopicName(name) && (prefix.empty() || IsFrameName(prefix))) {
-      picture_.robots.push_back(
-          {"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix), Shown(called), LineOf(display)});
+      picture_.robots.push_back({"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix),
+                                 Shown(called), LineOf(display)});
     } else {
-      Remark(display, fmt::format("{} is not drawn: {} with the prefix {} is no name in ROS", called,
-                                  Quoted(name), Quoted(prefix)));
+      Remark(display, fmt::format("{} is not drawn: {} with the prefix {} is no name in ROS",
+                                  called, Quoted(name), Quoted(prefix)));
     }
     has_model_ = true;
     if (rviz::NumberOf(display, "Alpha", 1, 0, 1) < 1) {
@@ -219,8 +219,8 @@ class RvizReader {
       const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
       if (alpha < 1) add("alpha=" + options::NumberText(alpha));
     }
-    const bool has_size = !(has.only_if != nullptr && TextOf(display, has.only_if, has.usually) ==
-                                                         std::string(has.not_if));
+    const bool has_size = !(has.only_if != nullptr &&
+                            TextOf(display, has.only_if, has.usually) == std::string(has.not_if));
     double size = 0;
     for (const char* const part : has.sizes) {
       if (part != nullptr) size += rviz::NumberOf(display, part, 0, 0, 10);

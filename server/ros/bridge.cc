@@ -358,7 +358,7 @@ class Bridge : public RosBridge {
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
   std::int64_t shown_stamp_nanos_ = 0;  // of the newest live state, in the graph's time
-  int jumps_ = 0;  // of clock_, that were noticed
+  int jumps_ = 0;                       // of clock_, that were noticed
   bool waits_for_clock_ = false;
 };
 

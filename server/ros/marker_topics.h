@@ -54,8 +54,7 @@ class MarkerInbox {
 
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
-  void TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
-                 std::int64_t monotonic_nanos);
+  void TakeShown(std::size_t topic, Taken<ShownMarkers> markers, std::int64_t monotonic_nanos);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;

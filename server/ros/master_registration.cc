@@ -343,8 +343,8 @@ void MasterRegistration::ReadRobots() {
     MasterReply set = master_.Call("getParam", arguments);
     if (!set.problem.empty()) wiring_.robots->SetProblem(i, set.problem);
     if (set.code == MasterReply::Code::kNoAnswer) return;
-    const bool is_text = set.code == MasterReply::Code::kGood &&
-                         set.value.getType() == XmlRpcValue::TypeString;
+    const bool is_text =
+        set.code == MasterReply::Code::kGood && set.value.getType() == XmlRpcValue::TypeString;
     wiring_.robots->SetDescription(
         i, is_text ? std::optional(static_cast<std::string&>(set.value)) : std::nullopt);
   }

@@ -44,8 +44,8 @@ class RobotFrames {
 
  private:
   const std::shared_ptr<const urdf::RobotModel> model_;
-  std::vector<std::string> frames_;   // of the links
-  std::vector<std::size_t> parents_;  // of the links; of the root: itself
+  std::vector<std::string> frames_;               // of the links
+  std::vector<std::size_t> parents_;              // of the links; of the root: itself
   std::unordered_set<std::string> moved_joints_;  // those with a position
   urdf::JointPositions positions_;
   std::vector<Eigen::Isometry3d> chained_;  // root_from_link at positions_; empty before the first

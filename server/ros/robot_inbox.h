@@ -71,9 +71,9 @@ class RobotInbox {
   bool has_news_ = false;
 
   mutable std::mutex mutex_;
-  std::map<std::size_t, RobotState> loaded_;        // guarded by mutex_; until taken up
-  std::vector<std::optional<std::string>> texts_;   // guarded by mutex_; of the parameters
-  std::map<std::string, InputCounters> counters_;   // guarded by mutex_
+  std::map<std::size_t, RobotState> loaded_;       // guarded by mutex_; until taken up
+  std::vector<std::optional<std::string>> texts_;  // guarded by mutex_; of the parameters
+  std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 
 /// The topics of joint states; a master that was restarted needs new ones. Calls the master, so it

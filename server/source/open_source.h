@@ -20,7 +20,7 @@ struct SourceSettings {
   double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:` and `pose:`
   double subject_height_m = urdf::kDefaultHeight;
   mvn::StreamSettings stream;        // for sources of datagrams
-  GraphView bag;           // for bags
+  GraphView bag;                     // for bags
   mvn::DatagramSink* tap = nullptr;  // receives the datagrams of a live stream, too; borrowed
 };
 

@@ -56,9 +56,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override { builder_.OnObjects(sample); }
-  void OnSurroundings(const RecordedSurroundings& all) override {
-    builder_.OnSurroundings(all);
-  }
+  void OnSurroundings(const RecordedSurroundings& all) override { builder_.OnSurroundings(all); }
 
  private:
   void OnHandLoad(int character, const HandLoad& load) override;

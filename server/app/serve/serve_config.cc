@@ -134,7 +134,8 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   const CameraChoice& camera =
       options.ros_view_camera ? (*options.ros_view_camera).front() : options.camera->front();
   CameraOptions options_of_ros;
-  if (!options.ros_view_camera) {  // then it is the camera of the live picture, but still
+  // A camera that was placed belongs with its field of view, as RViz has it.
+  if (!options.ros_view_camera && camera.place) {
     options_of_ros.fov = options.camera_moves.fov;
     options_of_ros.projection = options.camera_moves.projection;
   }
@@ -221,9 +222,8 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
           ": a robot is moved by the transforms of a ROS graph or of a bag; this server has "
           "neither (--ros, --source)");
     }
-    config.notes.push_back(
-        fmt::format("robot of the parameter {}: not shown, this server has no ROS (--ros)",
-                    robot.parameter));
+    config.notes.push_back(fmt::format(
+        "robot of the parameter {}: not shown, this server has no ROS (--ros)", robot.parameter));
   }
 }
 

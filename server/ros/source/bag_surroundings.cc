@@ -116,8 +116,7 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
     return;
   }
   const ShownStyle& style = shown_topics_.at(WithSlash(message.connection->topic));
-  Taken<ShownMarkers> shown =
-      FindShownMessage(message.connection->md5sum)(message.bytes, style);
+  Taken<ShownMarkers> shown = FindShownMessage(message.connection->md5sum)(message.bytes, style);
   if (!shown) {
     ++counters.rejected[message.connection->type + ": " + shown.error().kind];
     return;

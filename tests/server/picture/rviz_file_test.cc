@@ -270,8 +270,8 @@ Visualization Manager:
 }
 
 TEST(RvizFile, RefusesStylesThatSayNothing) {
-  for (const char* bad : {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)", "/a(alpha=2)",
-                          "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
+  for (const char* bad : {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)",
+                          "/a(alpha=2)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
     ShownTopicsValue value;
     EXPECT_THROW(value.Parse(bad), options::BadValue) << bad;
   }

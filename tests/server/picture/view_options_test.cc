@@ -155,8 +155,8 @@ TEST(ViewOptions, RejectUnknownNamesWithTheNearestOne) {
   }
   EXPECT_THAT(Error("ghost_opacity", "2"), HasSubstr("from 0 to 1"));
   for (const char* bad :
-       {"a.urdf@1", "a.urdf@1,2,3,4", "a.urdf@1,y", "a.urdf@1001,0", "@1,2", "@tf", "a.urdf@tf:",
-        "a.urdf@tf:/lab", "a.urdf@tf:a b", "ros:", "ros:a b", "ros:/arm@1,2"}) {
+       {"a.urdf@1", "a.urdf@1,2,3,4", "a.urdf@1,y", "a.urdf@1001,0", "@1,2", "@tf",
+        "a.urdf@tf:", "a.urdf@tf:/lab", "a.urdf@tf:a b", "ros:", "ros:a b", "ros:/arm@1,2"}) {
     EXPECT_THAT(Error("robot", bad), HasSubstr("FILE.urdf@X,Y")) << bad;
   }
   EXPECT_THAT(Error("camera", "front,top"), HasSubstr("at most 1 camera"));
@@ -180,10 +180,10 @@ TEST(ViewOptions, TellRobotsThatStandFromThoseThatTfMoves) {
   EXPECT_EQ(robots[5].tf_prefix, "");
   EXPECT_THAT(options.robot.WithoutMoving().ToTexts(), ElementsAre("a.urdf", "b@tf.urdf@1,2"));
   options.robot.SetFolder("/lab");
-  EXPECT_THAT(options.robot.ToTexts(),
-              ElementsAre("/lab/a.urdf", "/lab/b@tf.urdf@1,2", "/lab/c.urdf@tf",
-                          "/lab/d.urdf@tf:lab/arm", "ros:/arm/robot_description@tf:arm",
-                          "ros:robot_description"));
+  EXPECT_THAT(
+      options.robot.ToTexts(),
+      ElementsAre("/lab/a.urdf", "/lab/b@tf.urdf@1,2", "/lab/c.urdf@tf", "/lab/d.urdf@tf:lab/arm",
+                  "ros:/arm/robot_description@tf:arm", "ros:robot_description"));
 }
 
 TEST(ViewOptions, ListTheFilesThatDetermineThePicture) {

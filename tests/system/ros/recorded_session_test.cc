@@ -61,10 +61,9 @@ class RecordedSession : public testing::RosProgram {
 
   render::Image Render(const std::string& source, const std::vector<std::string>& more) const {
     const std::string file = (folder_ / "picture.png").string();
-    std::vector<std::string> command = {KinescopePath(), "render",     source,   "--time",
-                                        "1.5",           "--size",     "640x480", "--camera",
-                                        "front",         "--no_overlays", "--force", "--out",
-                                        file};
+    std::vector<std::string> command = {
+        KinescopePath(), "render", source,          "--time",  "1.5",   "--size", "640x480",
+        "--camera",      "front",  "--no_overlays", "--force", "--out", file};
     command.insert(command.end(), more.begin(), more.end());
     const auto result = RunProgram(command);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -75,8 +74,8 @@ class RecordedSession : public testing::RosProgram {
 TEST_F(RecordedSession, IsDrawnAsItsSourceIsAndWithWhatOtherNodesPublished) {
   const std::string source = (folder_ / "lift.mvnx").string();
   const std::string bag = (folder_ / "session.bag").string();
-  ASSERT_EQ(RunProgram({KinescopePath(), "convert", "demo:lift", "--seconds", "2", "--rate_hz", "60",
-                        "--out", source})
+  ASSERT_EQ(RunProgram({KinescopePath(), "convert", "demo:lift", "--seconds", "2", "--rate_hz",
+                        "60", "--out", source})
                 .exit_code,
             0);
   tf2_msgs::TFMessage place;

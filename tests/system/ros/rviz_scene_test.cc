@@ -1,8 +1,8 @@
 // A scene of a lab, shown by RViz and by `kinescope serve --rviz` with the configuration that RViz
 // has saved: a robot that TF moves, a point cloud, a path, a pose, a marker, and the person.
+#include <fmt/ranges.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/Image.h>
@@ -93,7 +93,8 @@ struct Place {
 
 // Light differs, tint does not: the share that each channel has in the sum. Kinescope's legend, on
 // the left below, has something of each colour.
-Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels, std::size_t width) {
+Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels,
+              std::size_t width) {
   constexpr std::size_t kLegendRight = 206, kLegendTop = 320;  // px
   std::vector<double> x, y;
   const double whole = thing.color[0] + thing.color[1] + thing.color[2];
@@ -236,8 +237,7 @@ TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
   const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
   auto rviz = StartRViz();
   const std::string saved = (folder_ / "saved.rviz").string();
-  ASSERT_TRUE(Spin([&] { return SaveConfig(saved); }))
-      << testing::ReadFile(folder_ / "rviz.log");
+  ASSERT_TRUE(Spin([&] { return SaveConfig(saved); })) << testing::ReadFile(folder_ / "rviz.log");
   rviz.reset();
   const auto serve = Start(
       "serve demo:n_pose --ros required --http_port 0 --ros_view_size 800x600 --ros_view_rate_hz 5 "
@@ -265,8 +265,8 @@ TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
     bool is_same = true;
     for (const Thing& thing : kThings) {
       const Place a = PlaceOf(thing, theirs, kWidth), b = PlaceOf(thing, ours, kWidth);
-      told += fmt::format("{}: RViz {} ({} px), Kinescope {} ({} px)\n", thing.name, a.edges, a.pixels,
-                          b.edges, b.pixels);
+      told += fmt::format("{}: RViz {} ({} px), Kinescope {} ({} px)\n", thing.name, a.edges,
+                          a.pixels, b.edges, b.pixels);
       is_same = is_same && a.pixels > 300 && b.pixels > 300;
       for (std::size_t k = 0; k < 4; ++k) {
         is_same = is_same && std::abs(a.edges[k] - b.edges[k]) <= 3;

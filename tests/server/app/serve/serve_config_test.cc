@@ -108,6 +108,13 @@ TEST(ServeConfig, AppliesNoOptionsOfTheLivePictureToTheRosCamera) {
   EXPECT_EQ(camera.vertical_fov_rad, render::NamedCamera("front", nobody).vertical_fov_rad);
 }
 
+TEST(ServeConfig, GivesTheRosCameraTheFieldOfViewOfACameraThatWasPlaced) {
+  const ServeConfig config =
+      ConfigOf({{"ros", "required"}, {"camera", "0,-4,1:0,0,1"}, {"fov", "80"}});
+  EXPECT_NEAR(config.ros_camera->camera.Only(SceneState(), 0, 1).vertical_fov_rad, 80 * M_PI / 180,
+              1e-9);
+}
+
 TEST(ServeConfig, TurnsThePageAndItsPicturesWithThePersonAndTheRosCameraNever) {
   EXPECT_EQ(ConfigOf({}).scene.view_frame, CameraFrame::kStart);
   const ServeConfig config = ConfigOf({{"ros", "required"}, {"camera_frame", "person"}});

@@ -108,7 +108,8 @@ GraphRobot Arm(const std::string& prefix = {}) {
   arm.robot.model = std::make_shared<urdf::RobotModel>(urdf::ParseUrdf(
       "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry>"
       "</visual></link><link name='hand'><visual><geometry><sphere radius='1'/></geometry>"
-      "</visual></link><joint name='slide' type='prismatic'><parent link='base'/><child link='hand'/>"
+      "</visual></link><joint name='slide' type='prismatic'><parent link='base'/><child "
+      "link='hand'/>"
       "<axis xyz='0 0 1'/><limit lower='0' upper='2' effort='1' velocity='1'/></joint></robot>"));
   return arm;
 }
