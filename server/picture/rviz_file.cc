@@ -205,7 +205,7 @@ class RvizReader {
     const auto add = [&](const std::string& item) { style += (style.empty() ? "" : ",") + item; };
     const std::string transformer = TextOf(display, "Color Transformer", "");
     const bool is_cloud = has.color == nullptr;
-    if (is_cloud && transformer != "" && transformer != "FlatColor" && transformer != "RGB8" &&
+    if (is_cloud && !transformer.empty() && transformer != "FlatColor" && transformer != "RGB8" &&
         transformer != "Intensity") {
       Remark(display, called + ": Color Transformer " + Quoted(transformer) +
                           " is not taken; its points have the colours of the message");

@@ -75,7 +75,7 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
       items.push_back(topic.name + topic.style);
     }
   }
-  if (names.empty() || option->channel != Channel::kDefault) return;
+  if (items.empty() || option == nullptr || option->channel != Channel::kDefault) return;
   list.Set(*option, option->name, {fmt::format("{}", fmt::join(items, ",")), file + ": "},
            Channel::kFile);
 }
