@@ -60,6 +60,13 @@ class BagSource : public Source {
     world_ = FindWorld();
   }
 
+  // A picture may need the beginning of the bag alone, so the end is too late to say it.
+  ~BagSource() override {
+    if (counters_.samples > 0) surroundings_.WarnOfProblems(name_);
+  }
+  BagSource(const BagSource&) = delete;
+  BagSource& operator=(const BagSource&) = delete;
+
   State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
 
   SourceCounters counters() const override;
@@ -216,9 +223,6 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
 
 Source::State BagSource::End() {
   has_ended_ = true;
-  for (const std::string& problem : surroundings_.Problems()) {
-    spdlog::warn("bag '{}': {}", name_, problem);
-  }
   people_.End(counters_);
   CheckEnding(messages_);
   if (messages_.ending().kind == BagReader::Ending::Kind::kTruncated) {

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -185,12 +186,16 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   }
 }
 
-std::vector<std::string> BagSurroundings::Problems() const {
-  std::vector<std::string> problems;
+void BagSurroundings::WarnOfProblems(const std::string& bag) const {
+  static std::mutex mutex;
+  static std::set<std::string> told;  // guarded by mutex
   for (const Robot& robot : robots_) {
-    if (!robot.frames.now()->problem.empty()) problems.push_back(robot.frames.now()->problem);
+    const std::string& problem = robot.frames.now()->problem;
+    if (problem.empty()) continue;
+    const std::string line = fmt::format("bag '{}': {}", bag, problem);
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (told.insert(line).second) spdlog::warn("{}", line);
   }
-  return problems;
 }
 
 }  // namespace kinescope::ros_bridge

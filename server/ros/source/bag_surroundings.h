@@ -42,8 +42,9 @@ class BagSurroundings {
   void Update(std::int64_t now_nanos, const std::string& world, const std::string& bag,
               SampleSink& sink);
 
-  /// The recording is over: which robots were never placed, one line each.
-  std::vector<std::string> Problems() const;
+  /// Says which links of robots are nowhere; once per program, although a bag is read for a clip
+  /// twice, and again in every round of --loop.
+  void WarnOfProblems(const std::string& bag) const;
 
  private:
   struct Robot {
