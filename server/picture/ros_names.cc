@@ -11,26 +11,11 @@
 namespace kinescope::app {
 namespace {
 
-constexpr double kSmallest = 0.001, kLargest = 10;  // m, of a size
-
 bool IsName(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '/';
   });
 }
-
-}  // namespace
-
-bool IsTopicName(const std::string& text) {
-  const bool is_private = !text.empty() && text.front() == '~';
-  const std::string name = is_private ? text.substr(1) : text;
-  return IsName(name) &&
-         (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
-}
-
-bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
-
-namespace {
 
 // "color=#ff8800": false where it says nothing.
 bool TakeStyle(const std::string& item, ShownStyle& style) {
@@ -45,7 +30,7 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (!number) return false;
   if (key == "alpha" && *number >= 0 && *number <= 1) {
     style.alpha = *number;
-  } else if (key == "size" && *number >= kSmallest && *number <= kLargest) {
+  } else if (key == "size" && *number >= kSmallestShown && *number <= kLargestShown) {
     style.size_m = *number;
   } else {
     return false;
@@ -68,6 +53,15 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
 }
 
 }  // namespace
+
+bool IsTopicName(const std::string& text) {
+  const bool is_private = !text.empty() && text.front() == '~';
+  const std::string name = is_private ? text.substr(1) : text;
+  return IsName(name) &&
+         (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
+}
+
+bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
 
 void ShownTopicsValue::Parse(const std::string& text) {
   std::vector<ShownTopic> topics;

@@ -11,6 +11,7 @@
 namespace kinescope::app {
 
 inline constexpr std::size_t kMaxMarkerTopics = 16;
+inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
 
 /// A topic or a parameter: it begins with a letter, / or ~.
 [[nodiscard]] bool IsTopicName(const std::string& text);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/suit_colors.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
@@ -29,10 +30,9 @@ using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
-constexpr double kDarkest = 48.0 / 255;   // RViz's own background
-constexpr double kLeastAhead = 0.1;       // m, from a camera to its target
-constexpr double kFarthest = 1000;        // m, of a camera
-constexpr double kSmallestShown = 0.001;  // m
+constexpr double kDarkest = 48.0 / 255;  // RViz's own background
+constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
+constexpr double kFarthest = 1000;       // m, of a camera
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -69,11 +69,6 @@ bool IsTopicDisplay(const std::string& kind) {
 const ShownProperties& PropertiesOf(const std::string& kind) {
   return *std::find_if(std::begin(kTopicDisplays), std::end(kTopicDisplays),
                        [&](const ShownProperties& each) { return each.kind == kind; });
-}
-
-std::string HexOf(const Rgb& rgb) {
-  const auto level = [&](std::size_t i) { return std::lround(255 * rgb[i]); };
-  return fmt::format("#{:02x}{:02x}{:02x}", level(0), level(1), level(2));
 }
 
 std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
@@ -125,7 +120,7 @@ class RvizReader {
                              " is no r; g; b or #rrggbb; RViz's own is taken");
       rgb = Rgb{kDarkest, kDarkest, kDarkest};
     }
-    Set("background", HexOf(*rgb), line);
+    Set("background", ToHex(*rgb), line);
     const double luma = 0.2126 * (*rgb)[0] + 0.7152 * (*rgb)[1] + 0.0722 * (*rgb)[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
     fixed_frame_ = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
@@ -213,7 +208,7 @@ class RvizReader {
     const char* const color = is_cloud ? (transformer == "FlatColor" ? "Color" : "") : has.color;
     if (Member(display, color).IsDefined()) {
       const auto rgb = rviz::ColorOf(display, color, {1, 1, 1});
-      if (rgb) add("color=" + HexOf(*rgb));
+      if (rgb) add("color=" + ToHex(*rgb));
     }
     if (Member(display, "Alpha").IsDefined()) {
       const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
@@ -223,9 +218,10 @@ class RvizReader {
                             TextOf(display, has.only_if, has.usually) == std::string(has.not_if));
     double size = 0;
     for (const char* const part : has.sizes) {
-      if (part != nullptr) size += rviz::NumberOf(display, part, 0, 0, 10);
+      if (part != nullptr) size += rviz::NumberOf(display, part, 0, 0, kLargestShown);
     }
-    if (has_size && size >= kSmallestShown) add("size=" + options::NumberText(size));
+    if (has_size && size >= kSmallestShown)
+      add("size=" + options::NumberText(std::min(size, kLargestShown)));
     const std::string shape = TextOf(display, "Shape", "");
     if (shape == "Axes" || shape == "Arrow (3D)") {
       Remark(display, called + ": Shape " + Quoted(shape) + " is drawn as a plain arrow");

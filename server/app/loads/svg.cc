@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/suit_colors.h"
 #include "server/app/html.h"
 
 namespace kinescope::app {
 namespace {
-
-std::string SvgColor(const Rgb& color) {
-  const auto byte = [](double channel) { return static_cast<int>(std::lround(255 * channel)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(color[0]), byte(color[1]), byte(color[2]));
-}
 
 std::string SvgNumber(double value) {
   std::string text = fmt::format("{:.2f}", value);
@@ -24,7 +20,7 @@ std::string SvgNumber(double value) {
 
 std::string SvgStrokeAttributes(const SvgStroke& stroke) {
   std::string text = fmt::format(R"(fill="none" stroke="{}" stroke-width="{}")",
-                                 SvgColor(stroke.color), SvgNumber(stroke.width));
+                                 ToHex(stroke.color), SvgNumber(stroke.width));
   if (!stroke.dash.empty()) text += fmt::format(R"( stroke-dasharray="{}")", stroke.dash);
   return text;
 }
@@ -46,7 +42,7 @@ SvgDrawing::SvgDrawing(double width_mm, double height_mm, std::string_view descr
 }
 
 void SvgDrawing::Fill(const SvgBox& box, const Rgb& color) {
-  svg_ += fmt::format("<rect {} fill=\"{}\"/>", SvgBoxAttributes(box), SvgColor(color));
+  svg_ += fmt::format("<rect {} fill=\"{}\"/>", SvgBoxAttributes(box), ToHex(color));
 }
 
 void SvgDrawing::Outline(const SvgBox& box, const SvgStroke& stroke) {
@@ -95,20 +91,20 @@ void SvgDrawing::Area(const Points& points, const Rgb& color) {
     path += fmt::format("{}{} {}", path.empty() ? 'M' : 'L', SvgNumber(x), SvgNumber(y));
   }
   if (path.empty()) return;
-  svg_ += fmt::format("<path d=\"{}Z\" fill=\"{}\"/>", path, SvgColor(color));
+  svg_ += fmt::format("<path d=\"{}Z\" fill=\"{}\"/>", path, ToHex(color));
 }
 
 void SvgDrawing::Dot(double x, double y, double radius, bool is_filled) {
   svg_ += fmt::format(
       "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.2\"/>",
       SvgNumber(x), SvgNumber(y), SvgNumber(radius),
-      SvgColor(is_filled ? SvgStroke().color : Rgb{1, 1, 1}), SvgColor(SvgStroke().color));
+      ToHex(is_filled ? SvgStroke().color : Rgb{1, 1, 1}), ToHex(SvgStroke().color));
 }
 
 void SvgDrawing::Text(double x, double y, std::string_view text, const SvgText& look) {
   const char* const anchors[] = {"start", "middle", "end"};
   svg_ += fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>",
-                      SvgNumber(x), SvgNumber(y), SvgColor(look.color),
+                      SvgNumber(x), SvgNumber(y), ToHex(look.color),
                       anchors[static_cast<std::size_t>(look.anchor)],
                       look.is_bold ? " font-weight=\"bold\"" : "", EscapeHtml(text));
 }

@@ -248,6 +248,7 @@ Visualization Manager:
     - {Class: rviz/LaserScan, Enabled: true, Topic: /g, Color Transformer: AxisColor, Size (m): -1}
     - {Class: rviz/WrenchStamped, Enabled: true, Topic: /h, Force Color: 1; 2; 3}
     - {Class: rviz/PoseArray, Enabled: true, Topic: /i, Arrow Length: 0.5}
+    - {Class: rviz/Pose, Enabled: true, Topic: /j, Shaft Length: 9, Head Length: 8}
 )");
   std::vector<std::string> styles;
   std::string all;
@@ -257,12 +258,12 @@ Visualization Manager:
   }
   EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(size=0.75)",
                                   "(color=#19ff00)", "(size=0.2)", "(color=#00ff80,size=0.03)", "",
-                                  "", "(color=#010203)", "(size=0.5)"));
+                                  "", "(color=#010203)", "(size=0.5)", "(size=10)"));
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("Shape 'Axes' is drawn as a plain arrow")));
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("Color Transformer 'AxisColor' is not taken")));
   ShownTopicsValue value;
   value.Parse(all);
-  ASSERT_EQ(value->size(), 9u);
+  ASSERT_EQ(value->size(), 10u);
   EXPECT_EQ((*value)[0].style.alpha, 0.5);
   EXPECT_EQ((*value)[0].style.size_m, 0.1);
   EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
