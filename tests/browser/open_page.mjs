@@ -17,11 +17,12 @@ export const PHONE = { width: 390, height: 844 };
 // The headless shell opens a page in three quarters of the time of the whole program.
 const SHELL = '/usr/bin/chromium-headless-shell';
 const CHROMIUM = process.env.KINESCOPE_CHROMIUM ?? (existsSync(SHELL) ? SHELL : '/usr/bin/chromium');
-// Draws WebGL in software and keeps quiet on the network.
+// Draws WebGL in software; with KINESCOPE_ANGLE, on a GPU with that back-end of ANGLE (gl-egl, vulkan). Keeps quiet on the network.
+const ANGLE = process.env.KINESCOPE_ANGLE;
 const FLAGS = [
-  '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader', '--disable-background-networking', '--disable-component-update',
-  '--disable-sync', '--no-first-run', '--mute-audio',
+  '--no-sandbox', '--use-gl=angle', `--use-angle=${ANGLE ?? 'swiftshader'}`,
+  ...(ANGLE ? ['--ignore-gpu-blocklist', '--enable-gpu'] : ['--disable-gpu', '--enable-unsafe-swiftshader']),
+  '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio',
 ];
 const PATIENCE_MILLIS = 60000;  // only a failure takes so long
 
