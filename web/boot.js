@@ -1,5 +1,10 @@
 // Starts the page. Shows an error if its modules cannot be loaded, because the browser reports that only in its
 // console.
+try {
+  new Intl.NumberFormat(navigator.language);
+} catch {  // Chromium without a locale calls it en-US@posix, which Intl refuses: uPlot could not be loaded
+  Object.defineProperty(navigator, 'language', { value: 'en-GB', configurable: true });
+}
 import('./app.js').catch((/** @type {unknown} */ error) => {
   const banner = document.getElementById('banner');
   const status = document.getElementById('status');

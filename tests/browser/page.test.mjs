@@ -58,6 +58,14 @@ test('the page shows the person in the colours of the load classes', async () =>
   await visit.close();
 });
 
+test('the page works in a browser without a locale, as in containers and kiosks', async () => {
+  const visit = await openLive({ beforeLoad: (page) => page.addInitScript(() => {
+    Object.defineProperty(navigator, 'language', { value: 'en-US@posix', configurable: true });  // Chromium's own word
+  }) });
+  assert.deepEqual(visit.problems, []);
+  await visit.close();
+});
+
 test('the readings show the values of the stream', async () => {
   const { page, close } = await openLive();
   await page.waitForFunction(() => /^\d+(\.\d)? ms$/.test(document.getElementById('latency').textContent), null, LONG);
