@@ -8,6 +8,7 @@ import { placeIn } from './status.js';
 const MOST_LISTED = 200;  // the newest ones
 const MOST_BUTTONS = 9;
 const SOON_MILLIS = 100;  // a mark may be so much later than the newest sample is said to be
+const LATE_MILLIS = 1000;  // until a server that does not answer is named
 const SAID_MILLIS = 6000;  // that Undo is offered
 
 /** @typedef {import('./messages.js').Mark} Mark
@@ -98,6 +99,7 @@ export class MarkPad {
       this.notice('Nothing to mark: no sample has come yet');
       return false;
     }
+    const late = setTimeout(() => this.#say('The server has not answered yet'), LATE_MILLIS);
     try {
       const mark = await send(this.stateInView() ?? state.stateNumber);
       if (mark === null) this.#say(waitText(this.marks.waiting));
@@ -106,6 +108,8 @@ export class MarkPad {
     } catch (error) {
       this.notice(`The mark was not set: ${messageOf(error)}`);
       return false;
+    } finally {
+      clearTimeout(late);
     }
   }
 

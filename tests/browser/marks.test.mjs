@@ -108,6 +108,20 @@ test('marks that are set while the server cannot be reached are set when it can 
   await close();
 });
 
+test('a mark to which the server does not answer says so, and is set when it answers', async () => {
+  const { page, close } = await open(site.url);
+  let letThrough;
+  await page.route('**/api/v1/mark', async (route) => {
+    await new Promise((resolve) => { letThrough = resolve; });
+    await route.continue();
+  });
+  await page.keyboard.press('1');
+  await saidIs(page, /^The server has not answered yet$/);
+  letThrough();
+  await saidIs(page, /^Marked: “grasp” at sample/);
+  await close();
+});
+
 test('a live mark is of the sample that is drawn, within one', async () => {
   const { page, close } = await open(site.url);
   // The text of the sample changes a few times a second: pressed with it, the key is of the same sample.
