@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <bitset>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -30,6 +31,8 @@
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/ros_clock.h"
 #include "server/ros/stamp.h"
+#include "server/ros/stream_status.h"
+#include "server/ros/suit_messages.h"
 #include "server/ros/transforms.h"
 
 namespace kinescope::ros_bridge {
@@ -46,6 +49,7 @@ struct Outlet {
   bool has_last = false;
   std::uint32_t last_counter = 0;
   std::int64_t last_stamp_nanos = 0;
+  double period_secs = 0;            // between the last two samples; 0: not known
   std::uint64_t seen_in_number = 0;  // of the last live state that had this person
 
   sensor_msgs::JointState joint_states;
@@ -54,6 +58,13 @@ struct Outlet {
   visualization_msgs::MarkerArray markers;
   kinescope_ros::JointLoadArray joint_loads;
   tf2_msgs::TFMessage transforms;
+
+  std::shared_ptr<const SensorTopics> sensors;  // null until registered
+  sensor_msgs::Imu imu;
+  sensor_msgs::MagneticField magnetic_field;
+  urdf::Landmarks landmarks;  // empty until somebody listens
+  kinescope_ros::LandmarkArray landmark_array;
+  sensor_msgs::TimeReference time;
 };
 
 TfShape ShapeOf(const std::string& tf) {
@@ -119,12 +130,18 @@ class Bridge : public RosBridge {
     view->Publish(of_graph);
   }
 
-  void PublishDiagnostics(const std::vector<Diagnosis>& all) override {
-    if (const auto node = registration_.Node()) ros_bridge::PublishDiagnostics(all, *node);
+  void PublishDiagnostics(std::vector<Diagnosis> all, double suit_hz) override {
+    const auto node = registration_.Node();
+    if (!node) return;
+    if (!status_) status_.emplace();
+    const std::vector<Diagnosis> of_samples = status_->Diagnose(suit_hz);
+    all.insert(std::next(all.begin(), all.empty() ? 0 : 1), of_samples.begin(), of_samples.end());
+    ros_bridge::PublishDiagnostics(all, *node);
   }
 
   bool PublishState(const std::string& state) override {
     const auto node = registration_.Node();
+    if (node && state == "lost") DeleteMarkers();
     if (node) ros_bridge::PublishState(state, *node);
     return node != nullptr;
   }
@@ -258,6 +275,7 @@ class Bridge : public RosBridge {
     }
     found->second.model = person.model;
     found->second.names = PersonNames(person.model->human);
+    found->second.landmarks.clear();
     return found->second;
   }
 
@@ -273,6 +291,8 @@ class Bridge : public RosBridge {
   }
 
   void PublishSample(const SceneState& state, const PersonState& person, Outlet& outlet) {
+    outlet.period_secs =
+        outlet.has_last ? Secs(person.sample.stamp_nanos - outlet.last_stamp_nanos) : 0;
     outlet.has_last = true;
     outlet.last_counter = person.sample.counter;
     outlet.last_stamp_nanos = person.sample.stamp_nanos;
@@ -283,19 +303,72 @@ class Bridge : public RosBridge {
     }
     outlet.topics->inputs->SetBody(person, state.floor_z);
     Send(state, person, *outlet.topics, outlet);
+    if (status_ && &person == &state.people.front()) status_->OnSample(StampOf(person.sample));
     ++published_;
+  }
+
+  using Sensors = std::bitset<urdf::kSegmentCount>;
+
+  // Of the person's sensors, those to whose topics somebody listens.
+  Sensors HeardSensors(const PersonState& person, Outlet& outlet) {
+    const Sensors& sent = person.sample.has_tracker;
+    if (sent.none()) return {};
+    if (!outlet.sensors || (sent & ~outlet.sensors->advertised).any()) {
+      outlet.sensors = registration_.SensorsOf(person.character, sent);
+    }
+    if (!outlet.sensors) return {};
+    Sensors heard;
+    for (std::size_t i = 0; i < heard.size(); ++i) {
+      heard[i] = sent[i] && outlet.sensors->advertised[i] &&
+                 outlet.sensors->imu[i].getNumSubscribers() +
+                         outlet.sensors->magnetic_field[i].getNumSubscribers() >
+                     0;
+    }
+    return heard;
+  }
+
+  static void SendSensors(const PersonState& person, const Sensors& heard, Outlet& outlet) {
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      const std::size_t i = At(segment);
+      if (!heard.test(i)) continue;
+      FillImu(person, outlet.names, segment, outlet.imu);
+      outlet.sensors->imu[i].publish(outlet.imu);
+      FillMagneticField(person, outlet.names, segment, outlet.magnetic_field);
+      outlet.sensors->magnetic_field[i].publish(outlet.magnetic_field);
+    }
+  }
+
+  void SendSuit(const PersonState& person, const PersonTopics& topics, Outlet& outlet) const {
+    if (topics.landmarks.getNumSubscribers() > 0) {
+      if (outlet.landmarks.empty()) outlet.landmarks = LandmarksToPublish(*person.model);
+      FillLandmarks(person, outlet.names, outlet.landmarks, config_.reference_frame,
+                    outlet.landmark_array);
+      topics.landmarks.publish(outlet.landmark_array);
+    }
+    if (topics.time_code.getNumSubscribers() > 0) {
+      FillTimeCode(person.sample, outlet.time);
+      topics.time_code.publish(outlet.time);
+    }
+    if (person.sample.utc_millis_of_day && topics.utc.getNumSubscribers() > 0) {
+      FillUtc(person.sample, outlet.time);
+      topics.utc.publish(outlet.time);
+    }
   }
 
   // TF is published first, so that a receiver of the other topics can look the frames up.
   void Send(const SceneState& state, const PersonState& person, const PersonTopics& topics,
-            Outlet& outlet) const {
+            Outlet& outlet) {
     const std::string& frame = config_.reference_frame;
+    const Sensors heard = HeardSensors(person, outlet);
     if (topics.tf && topics.tf.getNumSubscribers() > 0) {
       FillTransforms(person, outlet.names, frame, shape_, outlet.transforms);
       const bool is_first = &person == &state.people.front();
       if (is_first) AddObjects(state, outlet.names, frame, outlet.transforms);
+      AddSensors(person, outlet.names, heard, frame, outlet.transforms);
       topics.tf.publish(outlet.transforms);
     }
+    SendSensors(person, heard, outlet);
+    SendSuit(person, topics, outlet);
     if (topics.joint_states.getNumSubscribers() > 0 && FillJointStates(person, outlet)) {
       topics.joint_states.publish(outlet.joint_states);
     }
@@ -319,7 +392,7 @@ class Bridge : public RosBridge {
     // Filled without a subscriber, too: they may have to turn grey when there is one.
     FillMarkers(person, outlet.names, frame,
                 shape_ == TfShape::kBase ? MarkerFrames::kReference : MarkerFrames::kLinks,
-                state.floor_z, outlet.markers);
+                state.floor_z, outlet.markers, MarkerLifetime(outlet.period_secs));
     topics.markers.publish(outlet.markers);
   }
 
@@ -340,6 +413,15 @@ class Bridge : public RosBridge {
     }
   }
 
+  void DeleteMarkers() {
+    for (auto& [character, outlet] : outlets_) {
+      if (!outlet.topics || outlet.markers.markers.empty()) continue;
+      MakeDeleted(outlet.markers);
+      outlet.topics->markers.publish(outlet.markers);
+      outlet.markers.markers.clear();
+    }
+  }
+
   const BridgeConfig config_;
   const TfShape shape_ = ShapeOf(config_.tf);
   RosClock clock_;                     // without a time unless it is simulated
@@ -355,6 +437,8 @@ class Bridge : public RosBridge {
 
   // Used by the publishing thread only.
   std::map<int, Outlet> outlets_;  // by character
+  std::optional<StreamStatus>
+      status_;  // of the first person's samples; from the first diagnosis on
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
   std::int64_t shown_stamp_nanos_ = 0;  // of the newest live state, in the graph's time

@@ -150,9 +150,10 @@ class RosBridge {
   virtual void TakeInputs(InputSink& sink) = 0;
   virtual BridgeStatus status() const = 0;  // any thread
 
-  /// Publishes `all` on `/diagnostics`, or nothing until a master has answered. Never blocks; call
-  /// it on the thread of Publish, as the next three.
-  virtual void PublishDiagnostics(const std::vector<Diagnosis>& all) = 0;
+  /// Publishes `all` on `/diagnostics`, and how the published samples compare with `suit_hz`, the
+  /// rate at which the suit sends (0: unknown); nothing until a master has answered. Never blocks;
+  /// call it on the thread of Publish, as the next three.
+  virtual void PublishDiagnostics(std::vector<Diagnosis> all, double suit_hz) = 0;
   /// Publishes what the stream is, on `~state`, which is latched. False until a master has
   /// answered.
   virtual bool PublishState(const std::string& state) = 0;

@@ -1,5 +1,7 @@
 #include "server/ros/markers.h"
 
+#include <algorithm>
+
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "server/ros/convert.h"
@@ -30,13 +32,15 @@ Eigen::Vector3d Cube(double size) { return Eigen::Vector3d::Constant(size); }
 class MarkerWriter {
  public:
   MarkerWriter(visualization_msgs::MarkerArray& message, const PersonState& person,
-               const PersonNames& names, const std::string& reference_frame, MarkerFrames frames)
+               const PersonNames& names, const std::string& reference_frame, MarkerFrames frames,
+               double lifetime_secs)
       : message_(message),
         person_(person),
         names_(names),
         reference_frame_(reference_frame),
         frames_(frames),
-        stamp_(StampOf(person.sample)) {}
+        stamp_(StampOf(person.sample)),
+        lifetime_(lifetime_secs) {}
 
   // `position` is in the reference frame.
   Marker& Add(const char* ns, int id, int type, const Eigen::Vector3d& position,
@@ -54,7 +58,7 @@ class MarkerWriter {
     Set(marker.pose.orientation, Eigen::Quaterniond::Identity());
     Set(marker.scale, size);
     SetColor(color, marker);
-    marker.lifetime = ros::Duration(kMarkerLifetime);
+    marker.lifetime = lifetime_;
     marker.text.clear();
     marker.points.clear();
     return marker;
@@ -86,6 +90,7 @@ class MarkerWriter {
   const std::string& reference_frame_;
   const MarkerFrames frames_;
   const ros::Time stamp_;
+  const ros::Duration lifetime_;
   std::size_t next_ = 0;
 };
 
@@ -131,10 +136,14 @@ void AddHeld(const PersonState& person, MarkerWriter& out) {
 
 }  // namespace
 
+double MarkerLifetime(double period_secs) {
+  return std::clamp(2.5 * period_secs, kMarkerLifetime, 60.0);
+}
+
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
-                 visualization_msgs::MarkerArray& message) {
-  MarkerWriter out(message, person, names, reference_frame, frames);
+                 visualization_msgs::MarkerArray& message, double lifetime_secs) {
+  MarkerWriter out(message, person, names, reference_frame, frames, lifetime_secs);
   for (const JointLoad& load : person.loads) {
     out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
                   SphereRadius(load.joint, load.load_class, *person.model),
@@ -164,6 +173,10 @@ void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& messag
       marker.action = Marker::DELETE;
     }
   }
+}
+
+void MakeDeleted(visualization_msgs::MarkerArray& message) {
+  for (Marker& marker : message.markers) marker.action = Marker::DELETE;
 }
 
 bool IsOwnMarkerNamespace(const std::string& ns) {

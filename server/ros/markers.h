@@ -12,9 +12,12 @@
 
 namespace kinescope::ros_bridge {
 
-/// Lifetime of a marker that is not renewed, s: covers a second without samples of one person while
-/// others still move.
+/// Least lifetime of a marker that is not renewed, s: covers a second without samples of one person
+/// while others still move.
 inline constexpr double kMarkerLifetime = 1.0;
+
+/// Lifetime of markers of a stream with a sample every `period_secs`: more than two of them.
+double MarkerLifetime(double period_secs);
 
 // m
 inline constexpr double kCopThickness = 0.01;
@@ -34,12 +37,15 @@ enum class MarkerFrames {
 /// values have no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
-                 visualization_msgs::MarkerArray& message);
+                 visualization_msgs::MarkerArray& message, double lifetime_secs = kMarkerLifetime);
 
 /// Turns the markers last sent into those of a stream that stopped: grey, with the size of unknown
 /// loads, and without lifetime. The centre of pressure and the arrows are removed, because forces
 /// are unknown now.
 void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& message);
+
+/// Turns the markers last sent into their deletions.
+void MakeDeleted(visualization_msgs::MarkerArray& message);
 
 /// Whether it is a namespace of these markers.
 bool IsOwnMarkerNamespace(const std::string& ns);

@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PointStamped.h>
+#include <kinescope/LandmarkArray.h>
 #include <kinescope/Mark.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -10,7 +11,10 @@
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MagneticField.h>
+#include <sensor_msgs/TimeReference.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <std_msgs/String.h>
@@ -137,6 +141,18 @@ std::shared_ptr<const PersonTopics> MasterRegistration::TopicsOf(int character) 
   return slot == slots_.end() ? nullptr : slot->second.topics;
 }
 
+std::shared_ptr<const SensorTopics> MasterRegistration::SensorsOf(
+    int character, const std::bitset<urdf::kSegmentCount>& wanted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Slot& slot = slots_.at(character);
+  if ((wanted & ~slot.wanted_sensors).any()) {
+    slot.wanted_sensors |= wanted;
+    has_work_ = true;
+    changed_.notify_all();
+  }
+  return slot.sensors;
+}
+
 std::shared_ptr<RosCameraTopics> MasterRegistration::View() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return view_;
@@ -220,6 +236,7 @@ void MasterRegistration::RegisterRegularly() {
     }
     if (!node_) Start();
     AdvertiseMissing();
+    AdvertiseSensors();
     if (!RegisterAll()) continue;
     Subscribe();
     if (!is_known && was_registered_) {
@@ -286,6 +303,33 @@ void MasterRegistration::AdvertiseMissing() {
   }
 }
 
+void MasterRegistration::AdvertiseSensors() {
+  std::map<int, Slot> due;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [character, slot] : slots_) {
+      const bool is_complete = slot.sensors ? slot.sensors->advertised == slot.wanted_sensors
+                                            : slot.wanted_sensors.none();
+      if (!is_complete) due.emplace(character, slot);
+    }
+  }
+  for (auto& [character, slot] : due) {
+    auto sensors = slot.sensors ? std::make_shared<SensorTopics>(*slot.sensors)
+                                : std::make_shared<SensorTopics>();
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      const std::size_t i = urdf::At(segment);
+      if (!slot.wanted_sensors.test(i) || sensors->advertised.test(i)) continue;
+      const std::string link(urdf::kSegments[i].link_name);
+      sensors->imu[i] = Topic<sensor_msgs::Imu>(slot.prefix + "imu/" + link);
+      sensors->magnetic_field[i] =
+          Topic<sensor_msgs::MagneticField>(slot.prefix + "magnetic_field/" + link);
+    }
+    sensors->advertised = slot.wanted_sensors;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_[character].sensors = std::move(sensors);
+  }
+}
+
 template <class Message>
 ros::Publisher MasterRegistration::Topic(const std::string& name, Latch latch) {
   ros::Publisher publisher = node_->advertise<Message>(name, kSampleQueue, latch == Latch::kYes);
@@ -302,6 +346,9 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->cop = Topic<geometry_msgs::PointStamped>(prefix + "cop");
   topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
   topics->joint_loads = Topic<kinescope_ros::JointLoadArray>(prefix + "joint_loads");
+  topics->landmarks = Topic<kinescope_ros::LandmarkArray>(prefix + "landmarks");
+  topics->time_code = Topic<sensor_msgs::TimeReference>(prefix + "time_code");
+  topics->utc = Topic<sensor_msgs::TimeReference>(prefix + "utc");
   topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
   if (config_.tf != "none") topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;

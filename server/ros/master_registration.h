@@ -10,6 +10,8 @@
 #include <ros/publisher.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <array>
+#include <bitset>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -36,9 +38,16 @@ namespace kinescope::ros_bridge {
 
 /// The publishers of one person. Any thread may publish.
 struct PersonTopics {
-  ros::Publisher joint_states, link_states, com, com_stamped, cop, markers, joint_loads;
+  ros::Publisher joint_states, link_states, com, com_stamped, cop, markers, joint_loads, landmarks,
+      time_code, utc;
   ros::Publisher tf;  // the same for all people; invalid if TF is off
   std::shared_ptr<ForceInbox> inputs;
+};
+
+/// What the sensors of one person's suit measure, by urdf::Segment. Any thread may publish.
+struct SensorTopics {
+  std::bitset<urdf::kSegmentCount> advertised;
+  std::array<ros::Publisher, urdf::kSegmentCount> imu, magnetic_field;
 };
 
 /// Destinations of the input topics. The callbacks run on the thread that calls `queue`.
@@ -74,6 +83,11 @@ class MasterRegistration {
   /// Null until a master has answered. Never blocks; any thread.
   std::shared_ptr<const PersonTopics> TopicsOf(int character) const;
 
+  /// The topics of a person's sensors: null until the master knows them. Those in `wanted` are
+  /// advertised, since a suit need not send its sensors. Never blocks; any thread.
+  std::shared_ptr<const SensorTopics> SensorsOf(int character,
+                                                const std::bitset<urdf::kSegmentCount>& wanted);
+
   /// Null until a master has answered, and if there is no view. Never blocks; any thread.
   std::shared_ptr<RosCameraTopics> View() const;
 
@@ -91,6 +105,8 @@ class MasterRegistration {
     std::string prefix;                        // "" or "<model>/"
     std::shared_ptr<const PersonModel> model;  // null: has left
     std::shared_ptr<const PersonTopics> topics;
+    std::bitset<urdf::kSegmentCount> wanted_sensors;
+    std::shared_ptr<const SensorTopics> sensors;  // null: none has come
   };
 
   void Run();
@@ -99,6 +115,7 @@ class MasterRegistration {
   bool MasterKnowsUs(bool& answers);
   void Start();
   void AdvertiseMissing();
+  void AdvertiseSensors();
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   void ReadRobots();

@@ -50,6 +50,7 @@ PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
   }
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     links[At(segment)] = urdf::LinkName(model_name, segment);
+    sensors[At(segment)] = links[At(segment)] + "_imu";
   }
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     for (const int axis : {1, 0}) {

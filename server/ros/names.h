@@ -37,6 +37,8 @@ struct PersonNames {
   /// The massless links before each of these, in the order of the chain: two for a finger, five for
   /// a prop. Empty if the model has none. Indexed as FingerAndPropSegments.
   std::array<std::vector<std::string>, kFingerAndPropCount> before_fingers_and_props;
+  /// `<model>_<link>_imu`: the frame of the suit's sensor on a segment, by urdf::Segment.
+  std::array<std::string, urdf::kSegmentCount> sensors;
   std::string model;
 };
 

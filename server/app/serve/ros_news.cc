@@ -24,6 +24,13 @@ std::string Percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f} %", *share * 100) : "unknown";
 }
 
+// That at which the suit sends, Hz: what arrives and what is lost. 0: unknown.
+double RateOfSuit(const SceneState* state, const StreamHealth& stream) {
+  const double loss = stream.recent_loss.value_or(0);
+  if (state == nullptr || state->liveness != Liveness::kLive || loss > 0.99) return 0;
+  return state->rate_hz / (1 - loss);
+}
+
 Diagnosis DiagnosisOfStream(const SceneState* state, const StreamHealth& stream) {
   Diagnosis diagnosis;
   diagnosis.name = "stream";
@@ -143,7 +150,9 @@ void RosNews::OnTime(std::int64_t now_nanos, const StreamHealth& stream) {
   if (now_nanos - diagnosed_nanos_ < kDiagnoseEveryNanos && !is_due_) return;
   is_due_ = false;
   diagnosed_nanos_ = now_nanos;
-  ros_.PublishDiagnostics(DiagnosesOf(states_.Get().get(), stream, alarms_));
+  const auto state = states_.Get();
+  ros_.PublishDiagnostics(DiagnosesOf(state.get(), stream, alarms_),
+                          RateOfSuit(state.get(), stream));
 }
 
 void RosNews::PublishState(std::int64_t now_nanos) {

@@ -91,6 +91,24 @@ TEST(Markers, AreNotKeptFromAnEarlierSample) {
   EXPECT_EQ(message.markers.back().ns, "com");
 }
 
+TEST(Markers, LiveLongerThanTwoSamplesOfASlowStream) {
+  EXPECT_EQ(MarkerLifetime(0), kMarkerLifetime);
+  EXPECT_EQ(MarkerLifetime(1.0 / 60), kMarkerLifetime);
+  EXPECT_EQ(MarkerLifetime(2), 5);
+}
+
+TEST(Markers, AreDeletedWithTheirNamesAndNumbers) {
+  auto message = Of(MarkedPerson());
+  const auto before = message;
+  MakeDeleted(message);
+  ASSERT_EQ(message.markers.size(), before.markers.size());
+  for (std::size_t i = 0; i < message.markers.size(); ++i) {
+    EXPECT_EQ(message.markers[i].action, Marker::DELETE);
+    EXPECT_EQ(message.markers[i].ns, before.markers[i].ns);
+    EXPECT_EQ(message.markers[i].id, before.markers[i].id);
+  }
+}
+
 TEST(Markers, AreGreySmallAndPermanentAfterTheStreamStopped) {
   const PersonState person = MarkedPerson();
   auto message = Of(person);

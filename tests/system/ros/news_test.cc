@@ -7,6 +7,7 @@
 #include <kinescope/SetHandLoad.h>
 #include <rosgraph_msgs/Log.h>
 #include <std_msgs/String.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <fstream>
@@ -67,6 +68,15 @@ TEST_F(NewsOverRos, DiagnosticsSayHowTheStreamIsAndWhichAlarmsAreOn) {
   EXPECT_EQ(diagnoses_["kinescope: alarm lost"].level, 0);
   ASSERT_TRUE(Spin([&] { return diagnoses_["kinescope: stream"].level == 0; }));
   EXPECT_THAT(diagnoses_["kinescope: stream"].message, HasSubstr("live, "));
+  ASSERT_TRUE(Spin([&] {
+    return diagnoses_["kinescope: frequency"].message == "Desired frequency met";
+  })) << diagnoses_["kinescope: frequency"].message;
+  double target = 0;
+  for (const auto& entry : diagnoses_["kinescope: frequency"].values) {
+    if (entry.key == "Target frequency (Hz)") target = std::stod(entry.value);
+  }
+  EXPECT_NEAR(target, 120, 12);
+  EXPECT_EQ(diagnoses_["kinescope: time stamps"].level, 0);
   EXPECT_EQ(Post("/api/v1/acknowledge", {{"id", 1}})["acknowledged"]["role"], "operator");
   EXPECT_TRUE(Spin([&] {
     const auto& values = diagnoses_["kinescope: alarm always"].values;
@@ -137,14 +147,25 @@ TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {
                            [&](const std_msgs::String& state) { states.push_back(state.data); });
   };
   hear();
+  visualization_msgs::MarkerArray markers;
+  Hear<visualization_msgs::MarkerArray>("/kinescope/markers",
+                                        [&](const auto& message) { markers = message; });
   Hear<rosgraph_msgs::Log>("/rosout", [&](const rosgraph_msgs::Log& line) {
     if (line.name == "/kinescope") lines.push_back(line.msg);
   });
   ASSERT_TRUE(Spin([&] { return has("no data"); }));
   auto suit = Start("stream demo:t_pose --to " + suit_address);
   ASSERT_TRUE(Spin([&] { return has("live"); }));
+  const auto are_all = [&](int action) {
+    return !markers.markers.empty() &&
+           std::all_of(markers.markers.begin(), markers.markers.end(),
+                       [&](const auto& marker) { return marker.action == action; });
+  };
+  ASSERT_TRUE(Spin([&] { return are_all(visualization_msgs::Marker::ADD); }));
   suit.reset();
   ASSERT_TRUE(Spin([&] { return has("lost"); }));
+  EXPECT_TRUE(Spin([&] { return are_all(visualization_msgs::Marker::DELETE); }))
+      << "who shows them must not keep loads of somebody who is gone";
   EXPECT_THAT(states, ElementsAre("no data", "live", "stale", "lost"));
   states.clear();
   subscribers_.erase(subscribers_.begin());

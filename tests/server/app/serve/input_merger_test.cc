@@ -183,7 +183,8 @@ class TellingBridge : public ros_bridge::RosBridge {
  public:
   void Publish(const SceneState&) override {}
   void PublishView(const ros_bridge::RosImage&) override {}
-  void PublishDiagnostics(const std::vector<ros_bridge::Diagnosis>& /*all*/) override {}
+  void PublishDiagnostics(std::vector<ros_bridge::Diagnosis> /*all*/, double /*suit_hz*/) override {
+  }
   bool PublishState(const std::string& /*state*/) override { return true; }
   bool PublishLog(const ros_bridge::RosLogLine& /*line*/) override { return true; }
   bool PublishMark(const ros_bridge::RosMark& /*mark*/) override { return true; }
