@@ -74,6 +74,7 @@ Answer Router::Download(const Request& request, Role /*role*/) const {
   Answer answer;
   const std::string ending = file->extension().string();
   answer.content_type = ending == ".mp4"    ? "video/mp4"
+                        : ending == ".png"  ? "image/png"
                         : ending == ".json" ? "application/json"
                                             : "application/octet-stream";
   // A report is HTML of its own: it is saved, and does not run as a page of this server.

@@ -408,4 +408,6 @@ std::string HttpServer::url_for_log(Role role) const {
 
 int HttpServer::clients() const { return impl_->hub_.client_count(); }
 
+void HttpServer::Post(std::function<void()> work) { asio::post(impl_->io_, std::move(work)); }
+
 }  // namespace kinescope::http

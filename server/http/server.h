@@ -203,6 +203,9 @@ class HttpServer {
   std::string url_for_log(Role role = Role::kOperator) const;
   int clients() const;  // open WebSockets
 
+  /// Calls `work` on the server's thread, unless the server ends before. Any thread.
+  void Post(std::function<void()> work);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

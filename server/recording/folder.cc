@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <ctime>
 #include <system_error>
 #include <utility>
+
+#include "core/system/clocks.h"
 
 namespace kinescope::recording {
 namespace {
@@ -15,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestPart = 40;
 constexpr std::size_t kLongestName = 160;
-constexpr std::array<std::string_view, 5> kEndings = {".pcapng", ".pcap", ".mp4", ".html", ".json"};
+constexpr std::array<std::string_view, 6> kEndings = {".pcapng", ".pcap", ".mp4",
+                                                      ".png",    ".html", ".json"};
 
 bool IsPlain(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
@@ -65,6 +70,18 @@ std::string NamePart(std::string_view text, std::string_view instead) {
   }
   while (!part.empty() && part.back() == '_') part.pop_back();
   return part.empty() ? std::string(instead) : part;
+}
+
+std::string TimeName() {
+  const std::int64_t millis = WallNanos() / kNanosPerMilli;
+  const auto secs = static_cast<std::time_t>(millis / 1000);
+  std::tm parts{};
+  ::gmtime_r(&secs, &parts);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y%m%dT%H%M%S", &parts);
+  char with_millis[48];
+  std::snprintf(with_millis, sizeof with_millis, "%s-%03dZ", name, static_cast<int>(millis % 1000));
+  return with_millis;
 }
 
 Folder::Folder(fs::path path, bool may_make, FreeBytes free_bytes)

@@ -16,6 +16,9 @@ namespace kinescope::recording {
 /// becomes one "_". At most 40 characters; `instead` if nothing is left.
 std::string NamePart(std::string_view text, std::string_view instead);
 
+/// A part of a file name: "20261123T065549-123Z", of now.
+std::string TimeName();
+
 struct FileEntry {
   std::string name;
   std::uintmax_t bytes = 0;
@@ -39,8 +42,8 @@ class Folder {
   /// replaced.
   std::string FreeStem(const std::string& stem) const;
 
-  /// The file of that name, if it is one of ours: a pcapng, pcap, mp4, html or json in this folder,
-  /// no link, with a name as NamePart() and FreeStem() make them.
+  /// The file of that name, if it is one of ours: a pcapng, pcap, mp4, png, html or json in this
+  /// folder, no link, with a name as NamePart() and FreeStem() make them.
   std::optional<std::filesystem::path> Find(const std::string& name) const;
 
   /// Those that Find() finds, the newest first, at most `most`.

@@ -22,6 +22,18 @@ namespace kinescope::ros_bridge {
 
 enum class RosMode { kOff, kAuto, kRequired };  // auto: publish while a master is reachable
 
+/// Of an order that came over ROS.
+struct RosAnswer {
+  bool is_done = false;
+  std::string text;  // the file that was made, or why not: one line
+};
+
+/// What other nodes may order. Both or none; called on a thread of their own, they may wait.
+struct RosOrders {
+  std::function<RosAnswer()> snapshot;        // `~snapshot`
+  std::function<RosAnswer(bool run)> record;  // `~record`
+};
+
 struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
   std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
@@ -46,6 +58,7 @@ struct BridgeConfig {
   double external_scale = 1;
   /// Why a hand load is rejected, "" if it is accepted. Null: all are accepted.
   std::function<std::string(const HandLoad&)> check_hand_load;
+  RosOrders orders;        // null functions: no services
   GraphView shown;         // of other nodes, beside the people
   bool with_view = false;  // advertises `~view/image_raw`; its owner must render it
 };

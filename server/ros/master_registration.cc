@@ -98,6 +98,7 @@ MasterRegistration::~MasterRegistration() {
   changed_.notify_all();
   HurryRoscpp();
   thread_.join();
+  orders_.reset();
   if (!node_) return;
   // Callbacks that are still queued will not be called: they hold inboxes, and the queue is
   // destroyed next.
@@ -233,12 +234,14 @@ void MasterRegistration::RegisterRegularly() {
       joint_states_.clear();
       robots_due_nanos_ = 0;
       marks_.reset();
+      orders_are_offered_ = false;
     }
     if (!node_) Start();
     AdvertiseMissing();
     AdvertiseSensors();
     if (!RegisterAll()) continue;
     Subscribe();
+    OfferOrders();
     if (!is_known && was_registered_) {
       if (!std::exchange(master_forgot_us_, true)) {
         spdlog::info("the ROS master was restarted: all topics are advertised again");
@@ -374,6 +377,13 @@ void MasterRegistration::Subscribe() {
   }
   if (!wants_transforms || !transforms_.empty()) return;
   transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};
+}
+
+void MasterRegistration::OfferOrders() {
+  if (!config_.orders.snapshot || orders_are_offered_) return;
+  if (!orders_) orders_ = std::make_unique<OrderServices>(config_.orders);
+  orders_->Advertise(*node_);
+  orders_are_offered_ = true;
 }
 
 // RViz reads a description when the display is enabled; here a robot that is started later, or

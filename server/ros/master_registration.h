@@ -30,6 +30,7 @@
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
 #include "server/ros/node_topics.h"
+#include "server/ros/order_services.h"
 #include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/running.h"
@@ -119,6 +120,7 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   void ReadRobots();
+  void OfferOrders();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
   void CountRefused(const char* topic, const char* kind);  // on the thread of the queue
@@ -174,6 +176,8 @@ class MasterRegistration {
   std::vector<ros::Subscriber> joint_states_;         // registered at this master
   std::int64_t robots_due_nanos_ = 0;                 // monotonic clock
   std::optional<ros::Subscriber> marks_;              // registered at this master
+  std::unique_ptr<OrderServices> orders_;             // null until a master has answered
+  bool orders_are_offered_ = false;                   // at this master
   std::map<std::string, std::string> description_names_;  // by prefix, at this master
   std::map<std::string, Description> described_;          // by name of the parameter
   std::set<std::string> twins_;    // nodes with the same frames, of which it was warned

@@ -31,17 +31,6 @@ std::string PercentText(const std::array<double, 2>& limits) {
   return fmt::format("{:g} % and {:g} %", 100 * limits[0], 100 * limits[1]);
 }
 
-// "20261123T065549-123Z".
-std::string TimeName() {
-  const std::int64_t millis = WallNanos() / kNanosPerMilli;
-  const auto secs = static_cast<std::time_t>(millis / 1000);
-  std::tm parts{};
-  ::gmtime_r(&secs, &parts);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y%m%dT%H%M%S", &parts);
-  return fmt::format("{}-{:03}Z", name, millis % 1000);
-}
-
 // As options and messages call a person.
 std::string NameOf(const PersonState& person) {
   return person.name.empty() ? "person " + std::to_string(person.character) : person.name;
@@ -129,6 +118,13 @@ std::optional<std::filesystem::path> ControlDesk::FindFile(const std::string& na
 }
 
 ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http::Role role) {
+  const Recorded file = Record(order, http::Name(role));
+  if (!file) return tl::unexpected(file.error());
+  return JsonText(json{{"file", *file}});
+}
+
+ControlDesk::Recorded ControlDesk::Record(const http::RecordingOrder& order,
+                                          std::string_view role) {
   if (parts_.recorder == nullptr) return RefuseOrder(409, parts_.why_no_recording);
   if (running_) return RefuseOrder(409, "a trial runs and is recorded; stop the trial first");
   status_due_nanos_ = 0;
@@ -138,17 +134,17 @@ ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http:
       return RefuseOrder(409, "nothing is recorded now");
     }
     parts_.recorder->Stop();
-    log_.Note(http::Name(role), "recording", before, "stopped");
-    return JsonText(json{{"file", before}});
+    log_.Note(role, "recording", before, "stopped");
+    return before;
   }
-  const std::string stem =
-      parts_.folder.FreeStem(recording::NamePart(order.label, "recording") + "_" + TimeName());
+  const std::string stem = parts_.folder.FreeStem(recording::NamePart(order.label, "recording") +
+                                                  "_" + recording::TimeName());
   const std::string wrong = parts_.recorder->Start(stem);
   if (!wrong.empty()) return RefuseOrder(409, wrong);
   was_recording_ = true;
   ++files_revision_;
-  log_.Note(http::Name(role), "recording", "off", stem + recording::RawRecorder::kEnding);
-  return JsonText(json{{"file", stem + recording::RawRecorder::kEnding}});
+  log_.Note(role, "recording", "off", stem + recording::RawRecorder::kEnding);
+  return stem + recording::RawRecorder::kEnding;
 }
 
 tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder& order) const {
@@ -223,7 +219,7 @@ ControlDesk::Result ControlDesk::Clip(const http::ClipOrder& order, http::Role /
   }
   const auto span = SpanOf(order);
   if (!span) return tl::unexpected(span.error());
-  const std::string name = parts_.folder.FreeStem("clip_" + TimeName()) + ".mp4";
+  const std::string name = parts_.folder.FreeStem("clip_" + recording::TimeName()) + ".mp4";
   const auto added = AddClip(*span, camera, "", name);
   if (!added) return RefuseOrder(409, added.error());
   return JsonText(json{{"id", *added}, {"file", name}});

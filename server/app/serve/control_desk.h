@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 
@@ -66,6 +67,11 @@ class ControlDesk : public http::Controls {
   Result SetPerson(const http::PersonOrder& order, http::Role role) override;
   Result SetClassLimits(const std::array<double, 2>& limits, http::Role role) override;
   Result RunTrial(const http::TrialOrder& order, http::Role role) override;
+
+  /// The file, or why not.
+  using Recorded = tl::expected<std::string, http::ControlRefusal>;
+  /// `role`: of who orders it, for the mark.
+  Recorded Record(const http::RecordingOrder& order, std::string_view role);
 
   void OnHandLoad(int character, const HandLoad& load, http::Role role) override;
   void OnCamera(const std::string& before, const std::string& after, http::Role role) override;

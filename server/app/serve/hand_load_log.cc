@@ -80,7 +80,7 @@ void HandLoadLog::MarkIfDue(int character, Waiting& waiting, std::int64_t now_na
 void HandLoadLog::MarkRos(int character, Waiting& waiting) {
   if (!waiting.since) return;
   const HandLoad now = Held(character);
-  log_.Note("ros", "hand load of " + waiting.name, TextOf(waiting.marked), TextOf(now),
+  log_.Note(kRosRole, "hand load of " + waiting.name, TextOf(waiting.marked), TextOf(now),
             *waiting.since);
   waiting.marked = now;
   waiting.since.reset();

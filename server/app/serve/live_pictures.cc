@@ -65,6 +65,10 @@ bool LivePictures::SetCamera(const std::string& camera) {
 }
 
 std::vector<std::uint8_t> LivePictures::SnapshotPng(const http::SnapshotRequest& request) {
+  return render::EncodePng(Order(request).get());
+}
+
+std::future<render::Image> LivePictures::Order(const http::SnapshotRequest& request) {
   const std::string& camera = request.camera;
   render::PictureSpec view{request.width, request.height, 2, "", true};
   if (request.is_dark) view.look.theme = render::Theme::kDark;
@@ -79,15 +83,13 @@ std::vector<std::uint8_t> LivePictures::SnapshotPng(const http::SnapshotRequest&
     // A former moment has lens and framing of the live picture in whose place it is shown.
     named.emplace(ParseCamera(camera), former ? moves_ : CameraOptions());
   }
-  return render::EncodePng((named ? snapshots_.Request(view, std::move(named), former)
-                                  : snapshots_.RequestAimed(
-                                        view,
-                                        [this, former](const render::ViewShape& shape) {
-                                          return former ? live_.AimAlone(*former, shape)
-                                                        : live_.AimLive(shape);
-                                        },
-                                        former))
-                               .get());
+  if (named) return snapshots_.Request(view, std::move(named), former);
+  return snapshots_.RequestAimed(
+      view,
+      [this, former](const render::ViewShape& shape) {
+        return former ? live_.AimAlone(*former, shape) : live_.AimLive(shape);
+      },
+      former);
 }
 
 std::vector<render::Trail> LivePictures::TrailsUpTo(const SceneState& state) const {

@@ -54,6 +54,9 @@ class LivePictures : public http::PictureFeed {
   [[nodiscard]] bool SetCamera(const std::string& camera) override;
   void SetDark(bool is_dark) override { live_.SetDark(is_dark); }
   std::vector<std::uint8_t> SnapshotPng(const http::SnapshotRequest& request) override;
+  /// The same as pixels, when it is drawn. Any thread; does not wait for rendering.
+  /// @throws what DrawingLoop::Request throws
+  std::future<render::Image> Order(const http::SnapshotRequest& request);
 
   /// Of the live picture and the snapshots together.
   DrawingStatus status() const;

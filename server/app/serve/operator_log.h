@@ -14,6 +14,9 @@
 
 namespace kinescope::app {
 
+/// Role of what is ordered over ROS, in marks.
+inline constexpr char kRosRole[] = "ros";
+
 class OperatorLog {
  public:
   /// Both are borrowed; `book` may be null: nothing is kept then.

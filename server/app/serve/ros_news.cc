@@ -9,6 +9,7 @@
 #include "core/system/clocks.h"
 #include "core/system/utf8.h"
 #include "server/app/serve/clock_news.h"
+#include "server/app/serve/operator_log.h"
 #include "server/http/mark_order.h"
 
 namespace kinescope::app {
@@ -197,7 +198,7 @@ void RosNews::OnMark(const std::string& text) {
   marks::NewMark mark;
   mark.button = is_button ? line[0] - '0' : 0;
   mark.text = line;
-  mark.role = "ros";
+  mark.role = kRosRole;
   mark.at = {state->number, state->made_nanos, state->stamp_nanos, state->time_code_millis,
              state->counter};
   if (const auto kept = marks_->Add(mark); !kept) refuse(kept.error());

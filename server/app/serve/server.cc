@@ -139,9 +139,12 @@ Server::Server(const ServeConfig& config)
   if (config.page) {
     StartControls(config);
     StartPage(config);
+    ros_desk_.Open({live_pictures_.get(), *page_, *desk_, recordings_});
   }
   listener_.reset();
 }
+
+Server::~Server() { ros_desk_.Close(); }
 
 void Server::StartRos(const ServeConfig& config) {
   ros_bridge::BridgeConfig bridge = *config.ros;
@@ -149,6 +152,10 @@ void Server::StartRos(const ServeConfig& config) {
   bridge.serve_meshes = [this](const std::string& set, const auto& files) {
     return ServeMeshes(set, files);
   };
+  if (config.page) {
+    bridge.orders = {[this] { return ros_desk_.Snapshot(); },
+                     [this](bool run) { return ros_desk_.Record(run); }};
+  }
   ros_ = ros_bridge::MakeRosBridge(bridge, config.ros_mode);
   if (!ros_) return;
   ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_, config.log);

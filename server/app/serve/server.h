@@ -23,6 +23,7 @@
 #include "server/app/serve/missing_pose_warning.h"
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
+#include "server/app/serve/ros_desk.h"
 #include "server/app/serve/ros_news.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/stream_health.h"
@@ -46,6 +47,7 @@ class Server {
   /// When it returns, the first picture is rendered and the page can be opened.
   /// @throws SourceError, UsageError or render::RenderError of the part that cannot start.
   explicit Server(const ServeConfig& config);
+  ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
@@ -101,6 +103,7 @@ class Server {
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<http::MeshServer> meshes_;  // made by a thread of ros_, when it needs one
+  RosDesk ros_desk_;
   std::unique_ptr<ros_bridge::RosBridge> ros_;
   std::unique_ptr<RosNews> ros_news_;  // with ros_
   std::unique_ptr<RosCameraLoop> ros_camera_;
