@@ -188,6 +188,10 @@ class RosBridge {
 /// unless __name:= sets another.
 void TakeRosArguments(int& argc, char** argv, const std::string& default_name);
 
+/// Those that TakeRosArguments removed, for a program that takes this one's place: in a build
+/// without ROS, none.
+std::vector<std::string> TakenRosArguments();
+
 bool BuiltWithRos();
 
 // The first of the following functions starts roscpp with these arguments; a process that calls

@@ -123,6 +123,16 @@ void TakeRosArguments(int& argc, char** argv, const std::string& default_name) {
   argc = kept;
 }
 
+std::vector<std::string> TakenRosArguments() {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : MutableArguments().remappings)
+    all.push_back(name + ":=" + value);
+  for (const auto& [name, value] : MutableArguments().private_parameters) {
+    all.push_back("_" + name + ":=" + value);
+  }
+  return all;
+}
+
 void InitRos() {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);

@@ -17,6 +17,7 @@ void TakeRosArguments(int& argc, char** argv, const std::string& /*default_name*
   argc = static_cast<int>(end - argv);
 }
 
+std::vector<std::string> TakenRosArguments() { return {}; }
 bool BuiltWithRos() { return false; }
 std::string MasterUri() { return ""; }
 bool MasterIsReachable() { return false; }

@@ -1,14 +1,25 @@
 // `kinescope rviz`: a configuration of RViz for the nodes that run.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
+#include "core/system/state_folder.h"
+#include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/print.h"
 #include "server/app/rviz/rviz_config.h"
@@ -22,14 +33,19 @@ namespace {
 
 struct RvizOptions {
   options::Text out, node;
+  options::Flag start;
 
   void List(options::OptionList& option) {
     option("out", out, "RViz configuration to write, .rviz; -: standard output");
     option("node", node, "name of the node, as /kinescope; needed where several run");
+    option("start", start,
+           "start RViz with it, as soon as the node runs; without --out it is kept in "
+           "~/.local/state/kinescope");
   }
 };
 
-ros_bridge::RunningNode Choose(const std::string& name) {
+// nullopt, with why: it does not run.
+std::optional<ros_bridge::RunningNode> Find(const std::string& name, std::string& why) {
   const std::vector<ros_bridge::RunningNode> nodes = ros_bridge::FindRunningNodes();
   std::vector<std::string> names;
   for (const ros_bridge::RunningNode& node : nodes) {
@@ -38,17 +54,60 @@ ros_bridge::RunningNode Choose(const std::string& name) {
   }
   const std::string where = ros_bridge::MasterUri();
   if (nodes.empty()) {
-    throw UsageError(fmt::format(
+    why = fmt::format(
         "no Kinescope node runs at the ROS master {}; start one (kinescope serve, kinescope "
         "bridge), or set ROS_MASTER_URI",
-        where));
+        where);
+    return std::nullopt;
   }
   if (name.empty()) {
     throw UsageError(fmt::format("several nodes run at {}: choose one with --node: {}", where,
                                  fmt::join(names, ", ")));
   }
-  throw UsageError(fmt::format("--node={}: no such node at {}; there are: {}", name, where,
-                               fmt::join(names, ", ")));
+  why = fmt::format("--node={}: no such node at {}; there are: {}", name, where,
+                    fmt::join(names, ", "));
+  return std::nullopt;
+}
+
+// Of launch files: it is started together with the node.
+ros_bridge::RunningNode WaitFor(const std::string& name) {
+  constexpr std::chrono::milliseconds kAskEvery(200);
+  std::string why;
+  for (bool is_first = true; !StopRequested(); is_first = false) {
+    if (const auto node = Find(name, why)) return *node;
+    if (is_first) spdlog::info("waiting: {}", why);
+    std::this_thread::sleep_for(kAskEvery);  // the master tells nobody
+  }
+  throw UsageError(why);
+}
+
+ros_bridge::RunningNode Choose(const std::string& name) {
+  std::string why;
+  if (const auto node = Find(name, why)) return *node;
+  throw UsageError(why);
+}
+
+// "/lab/kinescope": "lab_kinescope.rviz" in the folder of this program's state.
+std::string KeptFile(const ros_bridge::RunningNode& node) {
+  const auto folder = StateFolder() / "rviz";
+  std::filesystem::create_directories(folder);
+  std::string name = node.name.substr(1);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return (folder / (name + ".rviz")).string();
+}
+
+// RViz in the place of this process, with its name of the node. @throws UsageError
+[[noreturn]] void BecomeRviz(const std::string& file) {
+  std::vector<std::string> arguments = {"rviz", "-d", file};
+  for (std::string& argument : ros_bridge::TakenRosArguments()) arguments.push_back(std::move(argument));
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  ::execvp(pointers[0], pointers.data());
+  throw UsageError(
+      fmt::format("rviz cannot be started ({}); install it (apt install rviz), or show "
+                  "{} on another computer",
+                  std::generic_category().message(errno), file));
 }
 
 std::string UsualConfig() {
@@ -71,16 +130,23 @@ Command RvizCommand() {
   command.name = "rviz";
   command.about = "Writes an RViz configuration for the nodes that run";
   values->List(command.options);
-  command.required = {"out"};
-  command.footer = "Show it: rviz -d FILE";
+  command.footer = "Show a file that was written: rviz -d FILE";
   command.run = [values](options::OptionList&) {
-    const ros_bridge::RunningNode node = Choose(*values->node);
-    OutputFile out(*values->out);
+    const bool starts = *values->start;
+    if (values->out->empty() && !starts) {
+      throw UsageError(
+          "expected --out FILE.rviz, to write a configuration, or --start, to show it");
+    }
+    if (starts && *values->out == "-") throw UsageError("--out=-: --start needs a file");
+    const ros_bridge::RunningNode node = starts ? WaitFor(*values->node) : Choose(*values->node);
+    const std::string file = values->out->empty() ? KeptFile(node) : *values->out;
+    OutputFile out(file);
     out.buffer() = RvizConfig(UsualConfig(), node);
     out.Finish();
-    if (*values->out == "-") return 0;
-    Print("{}: {} {} of {}; rviz -d {}\n", *values->out, node.people.size(),
-          node.people.size() == 1 ? "person" : "people", node.name, *values->out);
+    if (starts) BecomeRviz(file);
+    if (file == "-") return 0;
+    Print("{}: {} {} of {}; rviz -d {}\n", file, node.people.size(),
+          node.people.size() == 1 ? "person" : "people", node.name, file);
     return 0;
   };
   return command;
