@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 #include <xmlrpcpp/XmlRpcUtil.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
@@ -84,11 +85,14 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
 }
 
 // Fetches all parameters at the first call: a master that does not answer then costs one timeout
-// and not one per option. One lost packet can cost more than a second.
+// and not one per option. One lost packet can cost more than a second; a master that never answers
+// must not keep the program from starting within 3 s.
+constexpr std::chrono::milliseconds kStartPatience{2400};
+
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
-  const MasterReply reply = MasterClient().Call("getParam", arguments);
+  const MasterReply reply = MasterClient().Call("getParam", arguments, kStartPatience);
   return reply.code == MasterReply::Code::kGood ? reply.value : XmlRpcValue();
 }
 

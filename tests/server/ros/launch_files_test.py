@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""What launch files promise, by roslaunch's own reading of them.
+launch_files_test.py FOLDER: in a shell that has the devel space (ROS_PACKAGE_PATH)."""
+import pathlib
+import sys
+import unittest
+
+import roslaunch.config
+import roslaunch.xmlloader
+
+FOLDER = pathlib.Path(sys.argv.pop())
+
+
+def load(name, **arguments):
+    config = roslaunch.config.ROSLaunchConfig()
+    given = [f"{argument}:={value}" for argument, value in arguments.items()]
+    roslaunch.xmlloader.XmlLoader().load(str(FOLDER / name), config, argv=given, verbose=False)
+    return config
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_explain_every_argument(self):
+        files = sorted(FOLDER.glob("*.launch"))
+        self.assertGreaterEqual(len(files), 7)
+        for file in files:
+            for line in file.read_text().splitlines():
+                if line.strip().startswith("<arg name=") and "value=" not in line:
+                    self.assertIn(" doc=", line, file.name)
+
+    def test_xsens_client_takes_no_launch_file_down_that_includes_it(self):
+        for rviz in ("true", "false"):
+            for node in load("xsens_client.launch", launch_rviz=rviz).nodes:
+                self.assertFalse(node.required, node.name)
+
+    def test_joint_angles_as_streamed_are_an_argument(self):
+        for name, node in (("xsens_client.launch", "xsens"), ("kinescope.launch", "kinescope"), ("bridge.launch", "kinescope")):
+            parameter = f"/{node}/joint_angle_source"
+            self.assertEqual(load(name).params[parameter].value, "computed", name)
+            streamed = load(name, joint_angle_source="streamed")
+            self.assertEqual(streamed.params[parameter].value, "streamed", name)
+
+    def test_rviz_has_a_configuration_of_the_node_or_that_which_is_named(self):
+        for name, arguments in (("xsens_client.launch", {}), ("kinescope.launch", {"rviz": "true"}), ("rviz.launch", {})):
+            made = [node for node in load(name, **arguments).nodes if node.name == "rviz"]
+            self.assertEqual([(node.package, node.args.split()[:2]) for node in made], [("kinescope", ["rviz", "--start"])], name)
+            named = [node for node in load(name, rviz_config_file="/mine.rviz", **arguments).nodes if node.name == "rviz"]
+            self.assertEqual([node.package for node in named], ["rviz"], name)
+            self.assertIn("-d /mine.rviz", named[0].args)
+
+
+if __name__ == "__main__":
+    unittest.main()
