@@ -59,6 +59,9 @@ struct Outlet {
   kinescope_ros::JointLoadArray joint_loads;
   tf2_msgs::TFMessage transforms;
 
+  std::int64_t frames_seen_nanos = 0;  // monotonic clock; those of another node; 0: not yet
+  std::optional<bool> is_complete;     // whether that node has all frames; once it is known
+
   std::shared_ptr<const SensorTopics> sensors;  // null until registered
   sensor_msgs::Imu imu;
   sensor_msgs::MagneticField magnetic_field;
@@ -355,13 +358,40 @@ class Bridge : public RosBridge {
     }
   }
 
+  // Whether another node publishes the person's segments alone. It may have a second publisher,
+  // such as robot_state_publisher, so it is not known at once.
+  bool IsIncomplete(Outlet& outlet) const {
+    constexpr std::int64_t kListenNanos = 2 * kNanosPerSecond;
+    if (outlet.is_complete) return !*outlet.is_complete;
+    const std::int64_t now = MonotonicNanos();
+    if (outlet.frames_seen_nanos == 0 && transforms_->Knows(outlet.names.links[urdf::kPelvis])) {
+      outlet.frames_seen_nanos = now;
+    }
+    if (outlet.frames_seen_nanos == 0 || now - outlet.frames_seen_nanos < kListenNanos)
+      return false;
+    outlet.is_complete = transforms_->Knows(outlet.names.between.front()[0]);
+    if (!*outlet.is_complete) {
+      spdlog::info(
+          "nobody publishes the frames of the links inside the joints of {}, which RViz needs: "
+          "this "
+          "node does (--tf=none: nobody)",
+          outlet.names.model);
+    }
+    return !*outlet.is_complete;
+  }
+
   // TF is published first, so that a receiver of the other topics can look the frames up.
   void Send(const SceneState& state, const PersonState& person, const PersonTopics& topics,
             Outlet& outlet) {
     const std::string& frame = config_.reference_frame;
     const Sensors heard = HeardSensors(person, outlet);
-    if (topics.tf && topics.tf.getNumSubscribers() > 0) {
-      FillTransforms(person, outlet.names, frame, shape_, outlet.transforms);
+    const bool is_incomplete = config_.completes_frames && IsIncomplete(outlet);
+    if (topics.tf && topics.tf.getNumSubscribers() > 0 && (config_.tf != "none" || is_incomplete)) {
+      if (is_incomplete) {
+        FillInnerTransforms(person, outlet.names, frame, outlet.transforms);
+      } else {
+        FillTransforms(person, outlet.names, frame, shape_, outlet.transforms);
+      }
       const bool is_first = &person == &state.people.front();
       if (is_first) AddObjects(state, outlet.names, frame, outlet.transforms);
       AddSensors(person, outlet.names, heard, frame, outlet.transforms);

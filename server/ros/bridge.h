@@ -38,6 +38,9 @@ struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
   std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
                                           // alone, for robot_state_publisher) or "none"
+  /// With "none": adds the frames of the links inside the joints where the node that publishes the
+  /// people does not: RViz reports an error for a robot without them.
+  bool completes_frames = false;
   std::string joint_states = "computed";  // or "streamed": type 20 with the mapping of
                                           // xsens_mvn_ros
 

@@ -24,6 +24,9 @@ class TfTree {
   /// else comes, time was set back: what was kept is forgotten then.
   int Add(const tf2_msgs::TFMessage& message, bool is_static);
 
+  /// Whether `frame` is among those of other nodes.
+  bool Knows(const std::string& frame) const { return buffer_._frameExists(frame); }
+
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
   std::optional<urdf::Pose> Find(const std::string& target, const std::string& frame,
                                  std::int64_t stamp_nanos) const;

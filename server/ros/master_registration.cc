@@ -353,7 +353,8 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->time_code = Topic<sensor_msgs::TimeReference>(prefix + "time_code");
   topics->utc = Topic<sensor_msgs::TimeReference>(prefix + "utc");
   topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
-  if (config_.tf != "none") topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
+  if (config_.tf != "none" || config_.completes_frames)
+    topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
 }
 
@@ -370,7 +371,8 @@ void MasterRegistration::Subscribe() {
     joint_states_ = SubscribeJointStates(*node_, *wiring_.queue, wiring_.robots);
   }
   if (!marks_) marks_ = SubscribeMarks();
-  bool wants_transforms = wiring_.markers != nullptr || wiring_.robots != nullptr;
+  bool wants_transforms =
+      config_.completes_frames || wiring_.markers != nullptr || wiring_.robots != nullptr;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     wants_transforms = wants_transforms || wants_transforms_;

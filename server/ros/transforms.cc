@@ -48,16 +48,20 @@ std::array<Pose, 2> Between(const PersonState& person, int joint) {
   return {Pose{origin, after_y}, Pose{origin, after_y * AngleAxisd(angles.x(), Vector3d::UnitX())}};
 }
 
-void WriteFlat(const PersonState& person, const PersonNames& names, TransformWriter& out) {
-  for (const int segment : SegmentsByName()) {
-    out.AddToReference(names.links[At(segment)], person.links[At(segment)]);
-  }
+void WriteInner(const PersonState& person, const PersonNames& names, TransformWriter& out) {
   for (const int joint : JointsByName()) {
     const auto poses = Between(person, joint);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       out.AddToReference(names.between[At(joint)][i], poses[i]);
     }
   }
+}
+
+void WriteFlat(const PersonState& person, const PersonNames& names, TransformWriter& out) {
+  for (const int segment : SegmentsByName()) {
+    out.AddToReference(names.links[At(segment)], person.links[At(segment)]);
+  }
+  WriteInner(person, names, out);
 }
 
 void WriteTree(const PersonState& person, const PersonNames& names, TransformWriter& out) {
@@ -178,6 +182,13 @@ void AddObjects(const SceneState& scene, const PersonNames& names,
     Set(out.transform.rotation, object.pose.orientation);
     message.transforms.push_back(out);
   }
+}
+
+void FillInnerTransforms(const PersonState& person, const PersonNames& names,
+                         const std::string& reference_frame, tf2_msgs::TFMessage& message) {
+  message.transforms.resize(2 * urdf::kJointCount);
+  TransformWriter out(message, reference_frame, StampOf(person.sample));
+  WriteInner(person, names, out);
 }
 
 void FillTransforms(const PersonState& person, const PersonNames& names,

@@ -25,6 +25,11 @@ void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message);
 
+/// The 44 massless links inside the joints alone, each a child of the reference frame: what is
+/// missing where another node publishes the 23 segments.
+void FillInnerTransforms(const PersonState& person, const PersonNames& names,
+                         const std::string& reference_frame, tf2_msgs::TFMessage& message);
+
 /// Adds the tracked objects of a scene, each as `<model>_<its name>`, a child of the reference
 /// frame.
 void AddObjects(const SceneState& scene, const PersonNames& names,

@@ -99,7 +99,8 @@ std::string KeptFile(const ros_bridge::RunningNode& node) {
 // RViz in the place of this process, with its name of the node. @throws UsageError
 [[noreturn]] void BecomeRviz(const std::string& file) {
   std::vector<std::string> arguments = {"rviz", "-d", file};
-  for (std::string& argument : ros_bridge::TakenRosArguments()) arguments.push_back(std::move(argument));
+  for (std::string& argument : ros_bridge::TakenRosArguments())
+    arguments.push_back(std::move(argument));
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);

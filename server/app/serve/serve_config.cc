@@ -195,6 +195,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
     // The frames of these people are on /tf already. With a second publisher they would jump
     // between two poses, and Kinescope would receive its own.
     config.ros->tf = "none";
+    config.ros->completes_frames = true;
     config.notes.push_back(fmt::format(
         "TF frames of people from {} are not republished (as with --tf=none)", config.source_url));
   }

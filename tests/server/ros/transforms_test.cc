@@ -62,6 +62,17 @@ class Transforms : public ::testing::Test {
   PersonState person_ = testing::MakePerson(model_, testing::Posture(2), 5, 1'234'567'890);
 };
 
+TEST_F(Transforms, OfTheLinksInsideTheJointsAreTheSameAlone) {
+  const auto all = Resolve(Of(person_, TfShape::kFlat), "lab");
+  tf2_msgs::TFMessage message;
+  FillInnerTransforms(person_, PersonNames("skeleton"), "lab", message);
+  ASSERT_EQ(message.transforms.size(), 44U);
+  for (const auto& [frame, pose] : Resolve(message, "lab")) {
+    EXPECT_TRUE(pose.isApprox(all.at(frame), 1e-12)) << frame;
+    EXPECT_NE(frame.find("_link"), std::string::npos) << frame;
+  }
+}
+
 TEST_F(Transforms, HaveTheReferenceFrameAsParentInFlatMode) {
   const auto message = Of(person_, TfShape::kFlat);
   ASSERT_EQ(message.transforms.size(), 67U);

@@ -158,8 +158,34 @@ TEST_F(RosSource, ShowsTheSamePosesFromATreeWithoutPublishingFrames) {
   const boost::function<void(const ros::MessageEvent<const tf2_msgs::TFMessage>&)> note =
       [&](const auto& event) { publishers.insert(event.getPublisherName()); };
   subscribers_.push_back(node_->subscribe<tf2_msgs::TFMessage>("/tf", 0, note));
-  Compare(100);
+  Compare(400);  // longer than it listens for frames that the suit may lack
   EXPECT_THAT(publishers, ElementsAre("/suit"));
+}
+
+TEST_F(RosSource, PublishesTheFramesInsideTheJointsOfANodeThatHasTheSegmentsAlone) {
+  const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 100);
+  const auto view = Start("bridge ros: __name:=view");
+  std::map<std::string, tf2_msgs::TFMessage> heard;  // by publisher
+  const boost::function<void(const ros::MessageEvent<const tf2_msgs::TFMessage>&)> note =
+      [&](const auto& event) { heard[event.getPublisherName()] = *event.getMessage(); };
+  subscribers_.push_back(node_->subscribe<tf2_msgs::TFMessage>("/tf", 0, note));
+  const auto model = testing::MakeModel();
+  const ros_bridge::PersonNames names(model->human);
+  std::uint32_t n = 0;
+  ASSERT_TRUE(Spin([&] {
+    const auto now = static_cast<std::int64_t>(ros::Time::now().toNSec());
+    tf2_msgs::TFMessage message;
+    const auto person = testing::MakePerson(model, testing::Posture(1e-3 * n), n, now);
+    ros_bridge::FillTransforms(person, names, "world", ros_bridge::TfShape::kFlat, message);
+    message.transforms.resize(urdf::kSegmentCount);
+    publisher.publish(message);
+    ++n;
+    return heard.count("/view") != 0;
+  }));
+  std::set<std::string> expected, frames;
+  for (const auto& both : names.between) expected.insert(both.begin(), both.end());
+  for (const auto& one : heard["/view"].transforms) frames.insert(one.child_frame_id);
+  EXPECT_EQ(frames, expected);
 }
 
 // A suit that somebody else's driver put on /tf, next to a robot with a head and hands of its own:
