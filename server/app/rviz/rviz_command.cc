@@ -90,7 +90,8 @@ ros_bridge::RunningNode Choose(const std::string& name) {
 // "/lab/kinescope": "lab_kinescope.rviz" in the folder of this program's state.
 std::string KeptFile(const ros_bridge::RunningNode& node) {
   const auto folder = StateFolder() / "rviz";
-  std::filesystem::create_directories(folder);
+  std::error_code ignored;  // the file cannot be written then, which names it
+  std::filesystem::create_directories(folder, ignored);
   std::string name = node.name.substr(1);
   std::replace(name.begin(), name.end(), '/', '_');
   return (folder / (name + ".rviz")).string();
