@@ -26,7 +26,7 @@ DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md",
 NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
-    "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
+    "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice", "rosservice", "rosservice"],
     "docs/http.md": ["node docs/watch.mjs"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
                               "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
