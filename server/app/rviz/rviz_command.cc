@@ -103,6 +103,7 @@ std::string KeptFile(const ros_bridge::RunningNode& node) {
   for (std::string& argument : ros_bridge::TakenRosArguments())
     arguments.push_back(std::move(argument));
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   ::execvp(pointers[0], pointers.data());
