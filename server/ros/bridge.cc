@@ -65,7 +65,7 @@ struct Outlet {
   std::shared_ptr<const SensorTopics> sensors;  // null until registered
   sensor_msgs::Imu imu;
   sensor_msgs::MagneticField magnetic_field;
-  urdf::Landmarks landmarks;  // empty until somebody listens
+  urdf::Landmarks landmarks;  // empty until there is a subscriber
   kinescope_ros::LandmarkArray landmark_array;
   sensor_msgs::TimeReference time;
 };
@@ -144,9 +144,10 @@ class Bridge : public RosBridge {
 
   bool PublishState(const std::string& state) override {
     const auto node = registration_.Node();
-    if (node && state == "lost") DeleteMarkers();
-    if (node) ros_bridge::PublishState(state, *node);
-    return node != nullptr;
+    if (!node) return false;
+    if (state == "lost") DeleteMarkers();
+    ros_bridge::PublishState(state, *node);
+    return true;
   }
 
   bool PublishLog(const RosLogLine& line) override {
@@ -312,7 +313,7 @@ class Bridge : public RosBridge {
 
   using Sensors = std::bitset<urdf::kSegmentCount>;
 
-  // Of the person's sensors, those to whose topics somebody listens.
+  // Of the person's sensors, those whose topics have subscribers.
   Sensors HeardSensors(const PersonState& person, Outlet& outlet) {
     const Sensors& sent = person.sample.has_tracker;
     if (sent.none()) return {};
@@ -372,9 +373,9 @@ class Bridge : public RosBridge {
     outlet.is_complete = transforms_->Knows(outlet.names.between.front()[0]);
     if (!*outlet.is_complete) {
       spdlog::info(
-          "nobody publishes the frames of the links inside the joints of {}, which RViz needs: "
-          "this "
-          "node does (--tf=none: nobody)",
+          "no other node publishes the frames of the links inside the joints of {}, which RViz "
+          "needs: "
+          "this node does (with --tf=none it does not)",
           outlet.names.model);
     }
     return !*outlet.is_complete;

@@ -84,11 +84,12 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
   }
 }
 
-// Fetches all parameters at the first call: a master that does not answer then costs one timeout
-// and not one per option. One lost packet can cost more than a second; a master that never answers
-// must not keep the program from starting within 3 s.
+// One lost packet can cost more than a second; a master that never answers must not keep the
+// program from starting within 3 s.
 constexpr std::chrono::milliseconds kStartPatience{2400};
 
+// Fetches all parameters at the first call: a master that does not answer then costs one timeout
+// and not one per option.
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
@@ -129,11 +130,10 @@ void TakeRosArguments(int& argc, char** argv, const std::string& default_name) {
 
 std::vector<std::string> TakenRosArguments() {
   std::vector<std::string> all;
-  for (const auto& [name, value] : MutableArguments().remappings)
+  for (const auto& [name, value] : MutableArguments().remappings) {
     all.push_back(name + ":=" + value);
-  for (const auto& [name, value] : MutableArguments().private_parameters) {
-    all.push_back("_" + name + ":=" + value);
   }
+  for (const auto& [name, value] : PrivateArguments()) all.push_back("_" + name + ":=" + value);
   return all;
 }
 

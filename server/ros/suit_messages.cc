@@ -9,7 +9,6 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 constexpr std::int64_t kNanosPerDay = 24 * 3600 * kNanosPerSecond;
 
 void SetHeader(const PersonState& person, const std::string& frame, std_msgs::Header& header) {

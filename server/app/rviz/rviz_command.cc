@@ -1,4 +1,4 @@
-// `kinescope rviz`: a configuration of RViz for the nodes that run.
+// `kinescope rviz`: a configuration of RViz for the nodes that run, and RViz with it.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -76,7 +76,7 @@ ros_bridge::RunningNode WaitFor(const std::string& name) {
   for (bool is_first = true; !StopRequested(); is_first = false) {
     if (const auto node = Find(name, why)) return *node;
     if (is_first) spdlog::info("waiting: {}", why);
-    std::this_thread::sleep_for(kAskEvery);  // the master tells nobody
+    std::this_thread::sleep_for(kAskEvery);  // the master sends no notice
   }
   throw UsageError(why);
 }
@@ -131,7 +131,7 @@ Command RvizCommand() {
   const auto values = std::make_shared<RvizOptions>();
   Command command;
   command.name = "rviz";
-  command.about = "Writes an RViz configuration for the nodes that run";
+  command.about = "Writes an RViz configuration for the nodes that run, and starts RViz with it";
   values->List(command.options);
   command.footer = "Show a file that was written: rviz -d FILE";
   command.run = [values](options::OptionList&) {
