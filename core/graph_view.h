@@ -36,8 +36,10 @@ struct GraphView {
   /// Of messages that are shown as markers: points, poses, paths, ...
   std::vector<ShownTopic> topics;
   std::vector<GraphRobot> robots;
+  /// Of the transforms of a bag; "": /tf.
+  std::string tf_topic = {};
 
-  bool is_empty() const { return topics.empty() && robots.empty(); }
+  bool is_empty() const { return tf_topic.empty() && topics.empty() && robots.empty(); }
 };
 
 }  // namespace kinescope

@@ -48,7 +48,7 @@ LIBRARIES = {
     r"openssl/": ("OpenSSL", {"server/http"}),
     r"image_transport/": ("image_transport", {"server/ros"}),
     r"tf2(_msgs)?/": ("tf2", {"server/ros", "server/ros/source"}),
-    r"(ros|xmlrpcpp|kinescope|\w+_msgs|std_srvs)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),
+    r"(ros|xmlrpcpp|kinescope|\w+_msgs|std_srvs|dynamic_reconfigure)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),
     r"diagnostic_updater/": ("diagnostic_updater", {"server/ros"}),
     r"libdeflate\.h": ("libdeflate", {"render/image"}),
     r"png\.h": ("libpng", {"render/image"}),

@@ -8,6 +8,7 @@
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/body/body_color.h"
+#include "server/options/ros_names.h"
 
 namespace kinescope::app {
 namespace {
@@ -73,6 +74,7 @@ void BodyColorValue::Parse(const std::string& text) {
 
 PersonOptions::PersonOptions()
     : model_name("skeleton", "letters, digits and _", IsModelName),
+      tf_topic("", kTopicNameExpected, IsTopicNameOrEmpty),
       sex(Choice<urdf::Sex>({{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}},
                             urdf::Sex::kMale)),
       mass(Number(urdf::DefaultMass(urdf::Sex::kMale), {20, 300, "kg"})),
@@ -96,6 +98,7 @@ PersonOptions::PersonOptions()
 void PersonOptions::List(options::OptionList& option) {
   option.Group("The person");
   option("model_name", model_name, "prefix of links, joints and TF frames");
+  option("tf_topic", tf_topic, kTfTopicHelp);
   option("sex", sex, "selects body table and strength; not given: male is assumed");
   option("mass", mass,
          fmt::format("body mass; not given: {} kg (male) or {} kg (female) is assumed",

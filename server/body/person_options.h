@@ -49,7 +49,7 @@ class BodyColorValue : public options::ValueOf<std::optional<Rgb>> {
 struct PersonOptions {
   PersonOptions();
 
-  options::Text model_name;
+  options::Text model_name, tf_topic;
   options::Optional<options::Choice<urdf::Sex>> sex;
   options::Optional<options::Number> mass, height;  // kg, m
   options::Choice<urdf::BodyTable> body_table;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 
 #include "core/force_inputs.h"
@@ -71,7 +72,8 @@ class Controls {
 
   /// What was changed by other routes.
   virtual void OnHandLoad(int character, const HandLoad& load, Role role) = 0;
-  virtual void OnCamera(const std::string& before, const std::string& after, Role role) = 0;
+  virtual void OnCamera(const std::string& before, const std::string& after,
+                        std::string_view role) = 0;
 };
 
 }  // namespace kinescope::http

@@ -134,21 +134,23 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
   if (command->dark) client.SetWantsDark(*command->dark);
   if (command->pictures) SetPictures(client, *command->pictures);
   if (command->dark) ChooseTheme();
-  if (command->camera) SelectCamera(client, *command->camera);
+  if (command->camera) {
+    const std::string why = SelectCamera(*command->camera, Name(client.role()));
+    if (!why.empty()) client.Offer(Slot::kError, Share(EncodeError(why)));
+  }
   if (command->few_states) SetFewStates(client, *command->few_states);
   if (command->look) LookBack(client, *command->look);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, MonotonicNanos())));
 }
 
-void Hub::SelectCamera(HubClient& client, const std::string& camera) {
-  if (feed_ != nullptr && feed_->SetCamera(camera)) {
-    const std::string before = std::exchange(camera_, camera);
-    if (on_camera_ && before != camera) on_camera_(before, camera, client.role());
-    return;
+std::string Hub::SelectCamera(const std::string& camera, std::string_view role) {
+  if (feed_ == nullptr || !feed_->SetCamera(camera)) {
+    ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];
+    return feed_ == nullptr ? kNoRenderer : "unknown camera " + camera;
   }
-  ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];
-  client.Offer(Slot::kError,
-               Share(EncodeError(feed_ == nullptr ? kNoRenderer : "unknown camera " + camera)));
+  const std::string before = std::exchange(camera_, camera);
+  if (on_camera_ && before != camera) on_camera_(before, camera, role);
+  return "";
 }
 
 // At once all states again: the one that the client has may be old.

@@ -78,9 +78,9 @@ class Hub {
   /// has changed, and to those who join later. `news`: a JSON object; "": not known yet.
   void SendNews(Slot slot, const std::string& news);
 
-  /// `on_camera` is called when a client has changed the camera of the live picture.
+  /// `on_camera` is called when the camera of the live picture has changed.
   using OnCamera =
-      std::function<void(const std::string& before, const std::string& after, Role role)>;
+      std::function<void(const std::string& before, const std::string& after, std::string_view role)>;
   void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
   using GetSurroundings = std::function<std::shared_ptr<const Surroundings>()>;
@@ -90,6 +90,10 @@ class Hub {
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
   void OnMessage(HubClient& client, std::string_view text);
+
+  /// Sets the camera of the live picture, which all clients are told. @param role  of who does so
+  /// @return why not; "": done
+  [[nodiscard]] std::string SelectCamera(const std::string& camera, std::string_view role);
 
   int client_count() const { return client_count_; }  // any thread
   const std::string& camera() const { return camera_; }
@@ -110,7 +114,6 @@ class Hub {
     Bucket past_states{kPastStatesAtOnce, kPastStatesPerSecond, Clock::now()};  // still to be had
   };
 
-  void SelectCamera(HubClient& client, const std::string& camera);
   void SetFewStates(HubClient& client, bool few);
   void LookBack(HubClient& client, const LookBack& wanted);
   [[nodiscard]] StateMoment Moment() const;

@@ -205,7 +205,9 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   if (config.controls != nullptr) {
     hub_.SetOnCamera(
         [controls = config.controls](const std::string& before, const std::string& after,
-                                     Role role) { controls->OnCamera(before, after, role); });
+                                     std::string_view role) {
+          controls->OnCamera(before, after, role);
+        });
   }
   hub_.SetSurroundings(config.surroundings);
   shared_.router = &*router_;
@@ -407,6 +409,12 @@ std::string HttpServer::url_for_log(Role role) const {
 }
 
 int HttpServer::clients() const { return impl_->hub_.client_count(); }
+
+std::string HttpServer::SelectCamera(const std::string& camera, std::string_view role) {
+  return impl_->hub_.SelectCamera(camera, role);
+}
+
+const std::string& HttpServer::camera() const { return impl_->hub_.camera(); }
 
 void HttpServer::Post(std::function<void()> work) { asio::post(impl_->io_, std::move(work)); }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/force_inputs.h"
@@ -205,6 +206,10 @@ class HttpServer {
 
   /// Calls `work` on the server's thread, unless the server ends before. Any thread.
   void Post(std::function<void()> work);
+
+  /// The camera of the live picture, by name. On the server's thread. @return why not; "": done
+  [[nodiscard]] std::string SelectCamera(const std::string& camera, std::string_view role);
+  const std::string& camera() const;
 
  private:
   struct Impl;

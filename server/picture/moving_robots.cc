@@ -24,7 +24,7 @@ std::vector<GraphRobot> ReadMovingRobots(const std::vector<RobotPlace>& places) 
   return robots;
 }
 
-GraphView ToBagView(const ViewOptions& options) {
+void AddBagView(const ViewOptions& options, SceneOptions& scene) {
   for (const RobotPlace& place : *options.robot) {
     if (place.parameter.empty()) continue;
     throw UsageError(
@@ -32,7 +32,8 @@ GraphView ToBagView(const ViewOptions& options) {
                     "of the URDF: --robot=FILE.urdf@tf",
                     place.parameter));
   }
-  return {*options.marker_topics, ReadMovingRobots(*options.robot)};
+  scene.bag.topics = *options.marker_topics;
+  scene.bag.robots = ReadMovingRobots(*options.robot);
 }
 
 }  // namespace kinescope::app

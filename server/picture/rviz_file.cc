@@ -16,7 +16,7 @@
 #include "core/system/utf8.h"
 #include "server/options/text.h"
 #include "server/options/yaml_file.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/picture/rviz_values.h"
 #include "server/picture/rviz_view.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/picture/rviz_file.h"
 #include "server/source/open_source.h"
 

@@ -13,7 +13,7 @@
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/options/text.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_reader.h"
 #include "urdf/segments.h"

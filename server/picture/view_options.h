@@ -11,7 +11,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/picture/trail_options.h"
 
 namespace kinescope::app {

@@ -3,6 +3,7 @@
 /// is missing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -15,6 +16,7 @@
 #include "core/force_inputs.h"
 #include "core/graph_view.h"
 #include "core/mesh_files.h"
+#include "core/person_change.h"
 #include "core/scene_marker.h"
 #include "core/scene_state.h"
 
@@ -32,6 +34,36 @@ struct RosAnswer {
 struct RosOrders {
   std::function<RosAnswer()> snapshot;        // `~snapshot`
   std::function<RosAnswer(bool run)> record;  // `~record`
+};
+
+/// What may change while the node runs, by dynamic_reconfigure.
+struct LiveSettings {
+  std::array<double, 2> class_limits = kDefaultClassLimits;
+  // of the first person:
+  double mass_kg = 0, height_m = 0;
+  urdf::Sex sex = urdf::Sex::kMale;
+  std::string camera;  // of the live picture; "" without pictures
+
+  bool operator==(const LiveSettings& other) const {
+    return class_limits == other.class_limits && mass_kg == other.mass_kg &&
+           height_m == other.height_m && sex == other.sex && camera == other.camera;
+  }
+  bool operator!=(const LiveSettings& other) const { return !(*this == other); }
+};
+
+/// nullopt: as before.
+struct SettingsChange {
+  std::optional<std::array<double, 2>> class_limits;
+  PersonChange person;  // the first one
+  std::optional<std::string> camera;
+};
+
+/// Both or none; called on the thread of RosOrders, they may wait.
+struct RosSettings {
+  std::function<std::optional<LiveSettings>()> get;  // nullopt: not now
+  /// What cannot be changed is said in the answer; the rest is changed.
+  std::function<RosAnswer(const SettingsChange&)> change;
+  std::vector<std::string> cameras;  // to choose from; empty without pictures
 };
 
 struct BridgeConfig {
@@ -62,6 +94,7 @@ struct BridgeConfig {
   /// Why a hand load is rejected, "" if it is accepted. Null: all are accepted.
   std::function<std::string(const HandLoad&)> check_hand_load;
   RosOrders orders;        // null functions: no services
+  RosSettings settings;    // null functions: nothing may change
   GraphView shown;         // of other nodes, beside the people
   bool with_view = false;  // advertises `~view/image_raw`; its owner must render it
 };

@@ -1,6 +1,8 @@
 #include "server/ros/master_registration.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
 #include <geometry_msgs/PointStamped.h>
 #include <kinescope/LandmarkArray.h>
 #include <kinescope/Mark.h>
@@ -282,6 +284,11 @@ void MasterRegistration::Start() {
   node_topics->log = Topic<rosgraph_msgs::Log>("/rosout");
   node_topics->marks = Topic<kinescope_ros::Mark>("marks");
   node_topics->state = Topic<std_msgs::String>("state", Latch::kYes);
+  if (config_.settings.get) {
+    node_topics->settings =
+        Topic<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", Latch::kYes);
+    node_topics->settings_now = Topic<dynamic_reconfigure::Config>("parameter_updates", Latch::kYes);
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   node_topics_ = std::move(node_topics);
   view_ = std::move(view);
@@ -382,8 +389,11 @@ void MasterRegistration::Subscribe() {
 }
 
 void MasterRegistration::OfferOrders() {
-  if (!config_.orders.snapshot || orders_are_offered_) return;
-  if (!orders_) orders_ = std::make_unique<OrderServices>(config_.orders);
+  const bool has_any = config_.orders.snapshot || config_.settings.get;
+  if (!has_any || orders_are_offered_) return;
+  if (!orders_) {
+    orders_ = std::make_unique<OrderServices>(config_.orders, config_.settings, *Node());
+  }
   orders_->Advertise(*node_);
   orders_are_offered_ = true;
 }

@@ -93,6 +93,10 @@ std::string AsSnakeCase(const std::string& text) {
   return name;
 }
 
+std::string WithSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
 std::string AsRosName(const std::string& text) {
   std::string name;
   for (const char c : text) name += IsLetter(c) || IsDigit(c) ? c : '_';

@@ -1,6 +1,5 @@
-/// The topics of the node that belong to no person: `/diagnostics`, `/rosout`, `~state`, `~marks`
-/// and
-/// `~mark`.
+/// The topics of the node that belong to no person: `/diagnostics`, `/rosout`, `~state`, `~marks`,
+/// `~mark`, and `~parameter_descriptions` and `~parameter_updates` of dynamic_reconfigure.
 #pragma once
 
 #include <ros/publisher.h>
@@ -15,6 +14,7 @@ namespace kinescope::ros_bridge {
 /// Any thread may publish.
 struct NodeTopics {
   ros::Publisher diagnostics, marks, state, log;
+  ros::Publisher settings, settings_now;  // descriptions, and values
 };
 
 void PublishState(const std::string& state, const NodeTopics& topics);

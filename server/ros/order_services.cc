@@ -3,36 +3,25 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include "server/ros/raw_message.h"
+#include "core/system/clocks.h"
+#include "server/ros/offered_service.h"
 
 namespace kinescope::ros_bridge {
 namespace {
 
 constexpr double kPollSecs = 0.1;  // limits how soon the end is noticed
 
-// @param order  gets the request, returns a RosAnswer
-template <class Service, class Order>
-ros::ServiceServer Offer(ros::NodeHandle& node, const char* name, ros::CallbackQueue& queue,
-                         const Order& order) {
-  using Request = BoundedMessage<typename Service::Request>;
-  using Response = typename Service::Response;
-  ros::AdvertiseServiceOptions options;
-  options.init<Request, Response>(name, [order](Request& request, Response& response) {
-    if (!request.is_sound) return false;
-    const RosAnswer answer = order(request.message);
-    response.success = answer.is_done;
-    response.message = answer.text;
-    return true;
-  });
-  options.callback_queue = &queue;
-  return node.advertiseService(options);
-}
-
 }  // namespace
 
-OrderServices::OrderServices(const RosOrders& orders) : orders_(orders) {
+OrderServices::OrderServices(const RosOrders& orders, const RosSettings& settings,
+                             const NodeTopics& topics)
+    : orders_(orders) {
+  if (settings.get) settings_.emplace(settings, topics.settings, topics.settings_now);
   thread_ = std::thread([this] {
-    while (!stopping_) queue_.callOne(ros::WallDuration(kPollSecs));
+    while (!stopping_) {
+      queue_.callOne(ros::WallDuration(kPollSecs));
+      if (settings_) settings_->Update(MonotonicNanos());
+    }
   });
 }
 
@@ -45,11 +34,19 @@ OrderServices::~OrderServices() {
 
 void OrderServices::Advertise(ros::NodeHandle& node) {
   services_.clear();
-  services_.push_back(Offer<std_srvs::Trigger>(
-      node, "snapshot", queue_, [this](const auto& /*request*/) { return orders_.snapshot(); }));
-  services_.push_back(Offer<std_srvs::SetBool>(node, "record", queue_, [this](const auto& request) {
-    return orders_.record(request.data);
-  }));
+  if (settings_) services_.push_back(settings_->Advertise(node, queue_));
+  if (!orders_.snapshot) return;
+  const auto say = [](const RosAnswer& answer, auto& response) {
+    response.success = answer.is_done;
+    response.message = answer.text;
+  };
+  services_.push_back(OfferService<std_srvs::Trigger>(
+      node, "snapshot", queue_,
+      [this, say](const auto& /*request*/, auto& response) { say(orders_.snapshot(), response); }));
+  services_.push_back(OfferService<std_srvs::SetBool>(
+      node, "record", queue_, [this, say](const auto& request, auto& response) {
+        say(orders_.record(request.data), response);
+      }));
 }
 
 }  // namespace kinescope::ros_bridge

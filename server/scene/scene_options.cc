@@ -15,6 +15,17 @@ constexpr double kMaxClassLimit = 5;  // of capacity; more is no limit
 
 }  // namespace
 
+std::string FindDefect(const std::array<double, 2>& class_limits) {
+  ClassLimitsValue value;
+  const std::string text = fmt::format("{},{}", class_limits[0], class_limits[1]);
+  try {
+    value.Parse(text);
+    return "";
+  } catch (const BadValue&) {
+    return "class limits " + text + ": expected " + value.Expected();
+  }
+}
+
 ClassLimitsValue::ClassLimitsValue() : ValueOf(loads::LoadMeter::Settings().up) {}
 
 void ClassLimitsValue::Parse(const std::string& text) {
@@ -125,6 +136,7 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);
   scene.stale_secs = stale_secs;
+  scene.bag.tf_topic = *person.tf_topic;
   scene.appearance = ToAppearance(person);
   scene.body_color = ToBodyColor(person);
   return scene;

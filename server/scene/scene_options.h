@@ -23,6 +23,9 @@ class ClassLimitsValue : public options::ValueOf<std::array<double, 2>> {
   std::string Expected() const override;
 };
 
+/// Why these are no such ratios: two rising numbers in the range of the option. "": they are.
+[[nodiscard]] std::string FindDefect(const std::array<double, 2>& class_limits);
+
 /// Loads in the hands; "" : unknown.
 class HandLoadValue : public options::ValueOf<HandLoad> {
  public:

@@ -21,8 +21,8 @@ namespace {
 void CheckNeedsNoBag(const std::string& url, const SourceSettings& settings) {
   if (settings.bag.is_empty()) return;
   throw SourceError("source '" + url +
-                    "': is no ROS bag, so it has neither topics (--marker_topics) nor transforms "
-                    "that move a robot (--robot=FILE@tf)");
+                    "': is no ROS bag, so it has neither topics (--marker_topics, --tf_topic) nor "
+                    "transforms that move a robot (--robot=FILE@tf)");
 }
 
 // Opened once only: it may be a pipe.

@@ -26,7 +26,8 @@ DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md",
 NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
-    "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice", "rosservice", "rosservice"],
+    "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice", "rosservice", "rosservice",
+                    "rosrun dynamic_reconfigure", "rosrun dynamic_reconfigure"],
     "docs/http.md": ["node docs/watch.mjs"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
                               "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
@@ -252,6 +253,8 @@ def attempt(line, words, folder):
         return "skip: the recording does not exist"
     if name == "source":
         return None if not SETUP or os.path.exists(SETUP) else f"{SETUP} is missing"
+    if name == "rosservice" or words[:2] == ["rosrun", "dynamic_reconfigure"]:
+        return "never: the tests of the node make these requests"
     if name in ("roslaunch", "rviz", "rosrun"):
         if not SETUP:
             return "skip: built without ROS"
@@ -266,8 +269,6 @@ def attempt(line, words, folder):
         return try_curl(line, folder)
     if line.startswith("node docs/watch.mjs"):
         return "never: client.test.mjs runs it"
-    if name == "rosservice":
-        return "never: the tests of the node make these requests"
     if any(w.startswith("ros:") for w in words):
         if words[1] != "serve":
             return "never: ros_source_test runs it with a ROS graph"

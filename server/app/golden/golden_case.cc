@@ -283,7 +283,7 @@ void Draw(const GoldenCase& golden_case, render::Renderer& renderer,
           const std::function<void(GoldenDrawing)>& on_drawing) {
   if (!golden_case.page->empty()) return on_drawing(DrawPageOf(golden_case));
   SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
-  options.bag = ToBagView(golden_case.view);
+  AddBagView(golden_case.view, options);
   if (golden_case.seconds) return DrawClip(golden_case, options, renderer, on_drawing);
   RenderPlanner planner(golden_case.view, {}, options);
   if (planner.needs_prescan()) {

@@ -21,6 +21,7 @@
 #include "server/mvn/file/recording.h"
 #include "server/mvn/inspect/inspection.h"
 #include "server/mvn/open.h"
+#include "server/options/ros_names.h"
 #include "server/ros/source/bag_source.h"
 #include "server/source/open_source.h"
 #include "server/source/scheme.h"
@@ -32,11 +33,13 @@ struct InspectOptions {
   options::Text source, from;
   options::Number seconds{kInspectSecs, {0, 86'400, "s", true}};
   options::Flag json;
+  options::Text tf_topic{"", kTopicNameExpected, IsTopicNameOrEmpty};
 
   void List(options::OptionList& option) {
     option("source", source, "stream or recording to examine: " + SourceKinds());
     option("from", from, "machines that may send, such as 192.168.1.20,10.0.0.0/8; not given: all");
     option("seconds", seconds, "time to listen to a live stream");
+    option("tf_topic", tf_topic, kTfTopicHelp);
     option("json", json, "print the result as JSON (docs/inspect.md)");
   }
 };
@@ -157,11 +160,18 @@ std::string MvnxFormat(std::string_view head) {
   return std::string("MVNX version ") + in_tag[digit];
 }
 
+void CheckNeedsNoBag(const InspectOptions& options) {
+  if (options.tf_topic->empty()) return;
+  throw UsageError("--tf_topic=" + *options.tf_topic + ": '" + *options.source +
+                   "' is no ROS bag; of a ROS graph, name the topic in the source: ros:/human/tf");
+}
+
 // A file is opened once only: it may be a pipe.
 mvn::InspectionReport InspectFile(const InspectOptions& options) {
   InputFile file = OpenInputFile(*options.source);
   const std::string name = NameOfInput(*options.source);
   const mvn::RecordingKind kind = mvn::KindOf(file.head());
+  if (kind != mvn::RecordingKind::kRosBag) CheckNeedsNoBag(options);
   mvn::InspectionReport report;
   switch (kind) {
     case mvn::RecordingKind::kPcap:
@@ -178,7 +188,8 @@ mvn::InspectionReport InspectFile(const InspectOptions& options) {
     }
     case mvn::RecordingKind::kRosBag:
       if (*options.source != "-") {
-        report = InspectSamples(*ros_bridge::OpenBag(*options.source), *options.seconds, true);
+        report = InspectSamples(*ros_bridge::OpenBag(*options.source, {{}, {}, *options.tf_topic}),
+                                *options.seconds, true);
         report.format = "ROS 1 bag";
         return report;
       }
@@ -191,6 +202,7 @@ mvn::InspectionReport InspectFile(const InspectOptions& options) {
 
 mvn::InspectionReport Inspect(const InspectOptions& options) {
   mvn::InspectionReport report;
+  if (KindOfSource(*options.source) != SourceKind::kFile) CheckNeedsNoBag(options);
   switch (KindOfSource(*options.source)) {
     case SourceKind::kUdp:
     case SourceKind::kTcp:

@@ -28,7 +28,7 @@ namespace {
 
 SceneOptions PeopleOf(const RenderOptions& options) {
   SceneOptions people = ToShownSceneOptions(options.person, options.loads);
-  people.bag = ToBagView(options.view);
+  AddBagView(options.view, people);
   return people;
 }
 

@@ -226,9 +226,13 @@ ControlDesk::Result ControlDesk::Clip(const http::ClipOrder& order, http::Role /
 }
 
 ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, http::Role role) {
+  return SetPerson(order, http::Name(role));
+}
+
+ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, std::string_view role) {
   const auto state = parts_.states.Get();
   if (state == nullptr || state->people.empty()) {
-    return RefuseOrder(409, "no person in the stream yet");
+    return RefuseOrder(409, kNobodyYet);
   }
   if (!order.person && state->people.size() > 1) {
     return RefuseOrder(400, "several persons in the stream; set \"person\"");
@@ -241,21 +245,21 @@ ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, http:
   if (!wrong.empty()) return RefuseOrder(400, wrong);
   const PersonModel& model = *person->model;
   PersonChange& stated = stated_[character];
-  const std::string who = NameOf(*person), by(http::Name(role));
+  const std::string who = NameOf(*person);
   const urdf::BodyDescription& body = model.description;
   if (change.mass_kg) {
-    log_.Note(by, "mass of " + who, Kilograms(stated.mass_kg.value_or(body.mass_kg)),
+    log_.Note(role, "mass of " + who, Kilograms(stated.mass_kg.value_or(body.mass_kg)),
               Kilograms(*change.mass_kg));
   }
   if (change.sex) {
-    log_.Note(by, "sex of " + who, NameOf(stated.sex.value_or(body.sex)), NameOf(*change.sex));
+    log_.Note(role, "sex of " + who, NameOf(stated.sex.value_or(body.sex)), NameOf(*change.sex));
   }
   if (change.height_m) {
     const double before = stated.height_m.value_or(model.human.skeleton.height);
-    log_.Note(by, "stature of " + who, fmt::format("{:.3g} m", before),
+    log_.Note(role, "stature of " + who, fmt::format("{:.3g} m", before),
               fmt::format("{:.3g} m", *change.height_m));
   }
-  if (change.name) log_.Note(by, "name of person " + std::to_string(character), who, *change.name);
+  if (change.name) log_.Note(role, "name of person " + std::to_string(character), who, *change.name);
   stated.Add(change);
   parts_.changes.Put(character, change);
   status_due_nanos_ = 0;
@@ -275,18 +279,18 @@ std::array<double, 2> ControlDesk::ClassLimitsNow() const {
 
 ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& limits,
                                                 http::Role role) {
-  ClassLimitsValue value;
-  const std::string text = fmt::format("{},{}", limits[0], limits[1]);
-  try {
-    value.Parse(text);
-  } catch (const options::BadValue&) {
-    return RefuseOrder(400, "class limits " + text + ": expected " + value.Expected());
-  }
-  log_.Note(http::Name(role), "class limits", PercentText(ClassLimitsNow()), PercentText(limits));
-  class_limits_ = *value;
-  parts_.changes.Put(*value);
+  return SetClassLimits(limits, http::Name(role));
+}
+
+ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& limits,
+                                                std::string_view role) {
+  const std::string wrong = FindDefect(limits);
+  if (!wrong.empty()) return RefuseOrder(400, wrong);
+  log_.Note(role, "class limits", PercentText(ClassLimitsNow()), PercentText(limits));
+  class_limits_ = limits;
+  parts_.changes.Put(limits);
   status_due_nanos_ = 0;
-  return JsonText(json{{"class_limits", *value}});
+  return JsonText(json{{"class_limits", limits}});
 }
 
 // As marks call a person.
@@ -305,8 +309,9 @@ void ControlDesk::OnRosHandLoad(int character, const HandLoad& load, std::int64_
   held_.OnRos(character, NameOfCharacter(character), load, now_nanos);
 }
 
-void ControlDesk::OnCamera(const std::string& before, const std::string& after, http::Role role) {
-  log_.Note(http::Name(role), "camera of the server picture", before, after);
+void ControlDesk::OnCamera(const std::string& before, const std::string& after,
+                           std::string_view role) {
+  log_.Note(role, "camera of the server picture", before, after);
   camera_ = after;
 }
 

@@ -49,6 +49,8 @@ struct DeskParts {
   HandLoad first_hand_load;                    // of all people, as the server was started
 };
 
+inline constexpr char kNobodyYet[] = "no person in the stream yet";
+
 inline tl::unexpected<http::ControlRefusal> RefuseOrder(int status, std::string reason) {
   return tl::unexpected(http::ControlRefusal{status, std::move(reason)});
 }
@@ -68,13 +70,17 @@ class ControlDesk : public http::Controls {
   Result SetClassLimits(const std::array<double, 2>& limits, http::Role role) override;
   Result RunTrial(const http::TrialOrder& order, http::Role role) override;
 
+  /// As above; `role`: of who orders it, for the mark.
+  Result SetPerson(const http::PersonOrder& order, std::string_view role);
+  Result SetClassLimits(const std::array<double, 2>& limits, std::string_view role);
+
   /// The file, or why not.
   using Recorded = tl::expected<std::string, http::ControlRefusal>;
-  /// `role`: of who orders it, for the mark.
   Recorded Record(const http::RecordingOrder& order, std::string_view role);
 
   void OnHandLoad(int character, const HandLoad& load, http::Role role) override;
-  void OnCamera(const std::string& before, const std::string& after, http::Role role) override;
+  void OnCamera(const std::string& before, const std::string& after,
+                std::string_view role) override;
 
   /// A hand load that came over ROS. Any thread.
   void OnRosHandLoad(int character, const HandLoad& load, std::int64_t now_nanos);

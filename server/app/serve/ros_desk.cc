@@ -1,22 +1,74 @@
 #include "server/app/serve/ros_desk.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <exception>
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <utility>
 
 #include "render/image/png_file.h"
 #include "server/app/serve/operator_log.h"
 #include "server/http/answer.h"
+#include "server/scene/model_factory.h"
+#include "server/scene/scene_options.h"
 
 namespace kinescope::app {
 namespace {
 
+using ros_bridge::LiveSettings;
 using ros_bridge::RosAnswer;
+using ros_bridge::SettingsChange;
 
 constexpr std::chrono::milliseconds kLook(50);  // for the end of the server
 constexpr char kNotNow[] = "the server is starting or stopping";
+
+using Refused = std::vector<std::string>;  // why not, of each that is not changed
+
+bool IsEmpty(const PersonChange& change) {
+  return !change.mass_kg && !change.sex && !change.height_m && !change.name;
+}
+
+std::optional<int> FirstCharacter(const RosDesk::Parts& parts) {
+  const auto state = parts.states.Get();
+  if (state == nullptr || state->people.empty()) return std::nullopt;
+  return state->people.front().character;
+}
+
+// As operators of the page do it: their marks and reports have it.
+Refused ChangeOnPage(const RosDesk::Parts& parts, const SettingsChange& wanted) {
+  Refused refused;
+  const auto add = [&](const ControlDesk::Result& result) {
+    if (!result) refused.push_back(result.error().reason);
+  };
+  if (wanted.class_limits) add(parts.desk->SetClassLimits(*wanted.class_limits, kRosRole));
+  if (!IsEmpty(wanted.person)) {
+    add(parts.desk->SetPerson({FirstCharacter(parts), wanted.person}, kRosRole));
+  }
+  if (!wanted.camera) return refused;
+  const std::string wrong = parts.page->SelectCamera(*wanted.camera, kRosRole);
+  if (!wrong.empty()) refused.push_back(wrong);
+  return refused;
+}
+
+Refused ChangeAlone(const RosDesk::Parts& parts, const SettingsChange& wanted) {
+  Refused refused;
+  if (wanted.class_limits) {
+    const std::string wrong = FindDefect(*wanted.class_limits);
+    if (wrong.empty()) parts.changes.Put(*wanted.class_limits);
+    if (!wrong.empty()) refused.push_back(wrong);
+  }
+  if (!IsEmpty(wanted.person)) {
+    const std::optional<int> first = FirstCharacter(parts);
+    const std::string wrong = first ? FindDefect(wanted.person) : kNobodyYet;
+    if (wrong.empty()) parts.changes.Put(*first, wanted.person);
+    if (!wrong.empty()) refused.push_back(wrong);
+  }
+  if (wanted.camera) refused.push_back(http::kNoRenderer);
+  return refused;
+}
 
 }  // namespace
 
@@ -59,18 +111,51 @@ RosAnswer RosDesk::Snapshot() {
   }
 }
 
+template <class Result>
+std::optional<Result> RosDesk::OnPage(std::function<Result()> work) const {
+  const auto promise = std::make_shared<std::promise<Result>>();
+  auto result = promise->get_future();
+  parts_->page->Post([promise, work = std::move(work)] { promise->set_value(work()); });
+  return Await(result);
+}
+
 RosAnswer RosDesk::Record(bool run) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!parts_) return {false, kNotNow};
-  const auto promise = std::make_shared<std::promise<ControlDesk::Recorded>>();
-  auto recorded = promise->get_future();
-  parts_->page.Post([promise, run, desk = &parts_->desk] {
-    promise->set_value(desk->Record({run, ""}, kRosRole));
-  });
-  const auto file = Await(recorded);
+  if (!parts_ || parts_->desk == nullptr) return {false, kNotNow};
+  const auto file = OnPage<ControlDesk::Recorded>(
+      [run, desk = parts_->desk] { return desk->Record({run, ""}, kRosRole); });
   if (!file) return {false, kNotNow};
   if (!*file) return {false, file->error().reason};
   return {true, std::filesystem::absolute(parts_->folder.path() / **file).string()};
+}
+
+std::optional<LiveSettings> RosDesk::Settings() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!parts_) return std::nullopt;
+  LiveSettings now;
+  const auto state = parts_->states.Get();
+  const PersonModel& model =
+      state->people.empty() ? *parts_->initial_model : *state->people.front().model;
+  now.class_limits = state->class_limits;
+  now.mass_kg = model.description.mass_kg;
+  now.sex = model.description.sex;
+  now.height_m = model.human.skeleton.height;
+  if (parts_->page == nullptr || parts_->pictures == nullptr) return now;
+  const auto camera = OnPage<std::string>([page = parts_->page] { return page->camera(); });
+  if (!camera) return std::nullopt;
+  now.camera = *camera;
+  return now;
+}
+
+RosAnswer RosDesk::Change(const SettingsChange& wanted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!parts_) return {false, kNotNow};
+  const auto change = [parts = *parts_, wanted] {
+    return parts.page != nullptr ? ChangeOnPage(parts, wanted) : ChangeAlone(parts, wanted);
+  };
+  const auto refused = parts_->page != nullptr ? OnPage<Refused>(change) : std::optional(change());
+  if (!refused) return {false, kNotNow};
+  return {refused->empty(), fmt::format("{}", fmt::join(*refused, "; "))};
 }
 
 }  // namespace kinescope::app

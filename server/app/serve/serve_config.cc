@@ -206,6 +206,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
 void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   const bool is_bag = IsBag(config.source_url);
   std::vector<GraphRobot> robots = ReadMovingRobots(*options.robot);
+  config.source.bag = config.scene.bag;
   if (is_bag) config.source.bag.topics = *options.marker_topics;
   std::vector<GraphRobot> of_graph;
   for (GraphRobot& robot : robots) {

@@ -12,7 +12,7 @@
 #include "core/system/utf8.h"
 #include "server/marks/mark_book.h"
 #include "server/options/text.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {
@@ -25,8 +25,6 @@ options::Choice<std::string>::Words Words(const std::vector<std::string>& names)
   for (const std::string& name : names) words.emplace_back(name, name);
   return words;
 }
-
-bool IsTopicNameOrEmpty(const std::string& text) { return text.empty() || IsTopicName(text); }
 
 bool AreMarkNames(const std::string& text) {
   constexpr std::size_t kLongest = 40;  // characters, so that a button has room for it

@@ -8,7 +8,7 @@
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/picture/rviz_option.h"
 #include "server/picture/trail_options.h"
 #include "server/picture/view_options.h"

@@ -139,8 +139,9 @@ Server::Server(const ServeConfig& config)
   if (config.page) {
     StartControls(config);
     StartPage(config);
-    ros_desk_.Open({live_pictures_.get(), *page_, *desk_, recordings_});
   }
+  ros_desk_.Open({states_, builder_.InitialModel(), changes_, live_pictures_.get(), page_ ? &*page_ : nullptr, desk_.get(),
+                  recordings_});
   listener_.reset();
 }
 
@@ -152,6 +153,14 @@ void Server::StartRos(const ServeConfig& config) {
   bridge.serve_meshes = [this](const std::string& set, const auto& files) {
     return ServeMeshes(set, files);
   };
+  bridge.settings = {[this] { return ros_desk_.Settings(); },
+                     [this](const auto& wanted) { return ros_desk_.Change(wanted); },
+                     {}};
+  if (config.page && config.pictures) {
+    for (const http::CameraView& camera : config.page->cameras) {
+      bridge.settings.cameras.push_back(camera.name);
+    }
+  }
   if (config.page) {
     bridge.orders = {[this] { return ros_desk_.Snapshot(); },
                      [this](bool run) { return ros_desk_.Record(run); }};

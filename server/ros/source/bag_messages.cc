@@ -1,6 +1,5 @@
 #include "server/ros/source/bag_messages.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace kinescope::ros_bridge {
@@ -13,12 +12,6 @@ constexpr std::size_t kMessageOverhead = 160;
 
 BagMessages::BagMessages(InputFile file, const BagReader::IsWanted& is_wanted)
     : reader_(std::move(file), is_wanted), is_wanted_(is_wanted) {}
-
-bool BagMessages::HasTopic(const std::function<bool(const std::string&)>& is_it) const {
-  const auto& connections = reader_.connections();
-  return std::any_of(connections.begin(), connections.end(),
-                     [&](const auto& connection) { return is_it(connection.second.topic); });
-}
 
 std::map<std::string, std::uint64_t> BagMessages::others() const {
   std::map<std::string, std::uint64_t> by_topic;

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 
@@ -31,8 +30,10 @@ class BagMessages {
   const std::map<std::string, std::uint64_t>& defects() const { return reader_.defects(); }
   /// Messages that were not wanted so far, by "topic (type)".
   std::map<std::string, std::uint64_t> others() const;
-  /// Whether a topic for which `is_it` holds was found so far.
-  bool HasTopic(const std::function<bool(const std::string&)>& is_it) const;
+  /// Found so far, by the number that the bag gives them.
+  const std::map<std::uint32_t, BagConnection>& connections() const {
+    return reader_.connections();
+  }
 
  private:
   void Fill();

@@ -7,8 +7,10 @@
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <map>
+#include <set>
 
 #include "core/system/errors.h"
+#include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/source/bag_messages.h"
 #include "server/ros/source/bag_surroundings.h"
@@ -23,13 +25,15 @@ constexpr int kMessagesPerPoll = 256;
 constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
 
 constexpr char kUnreadableTransforms[] =
-    "message on /tf that is truncated or has a wrong length field";
+    "transforms that are truncated or have a wrong length field";
 constexpr char kUnreadableLinkStates[] =
     "message of link states that is truncated or has a wrong length field";
-constexpr char kOtherType[] = "message on /tf that is not a TFMessage";
+constexpr char kOtherType[] = "message on the topic of transforms that is not a TFMessage";
 
-bool IsStatic(const std::string& topic) { return topic == "/tf_static" || topic == "tf_static"; }
-bool IsMoving(const std::string& topic) { return topic == "/tf" || topic == "tf"; }
+bool HasTransformType(const BagConnection& connection) {
+  // tf/tfMessage in old recordings is the same message with another name.
+  return connection.md5sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>();
+}
 bool IsLinkStates(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>();
 }
@@ -53,6 +57,7 @@ class BagSource : public Source {
  public:
   BagSource(const std::string& path, const GraphView& view)
       : name_(path),
+        tf_topic_(view.tf_topic.empty() ? "/tf" : WithSlash(view.tf_topic)),
         surroundings_(view),
         messages_(OpenBagFile(path),
                   [this](const BagConnection& connection) { return IsUsed(connection); }) {
@@ -75,7 +80,12 @@ class BagSource : public Source {
   double nominal_rate_hz() const override { return rate_hz_; }
 
  private:
-  static bool HasTransforms(const BagConnection& connection) {
+  bool IsMoving(const std::string& topic) const { return WithSlash(topic) == tf_topic_; }
+  bool IsStatic(const std::string& topic) const {
+    const std::string name = WithSlash(topic);
+    return name == "/tf_static" || name == tf_topic_ + "_static";
+  }
+  bool HasTransforms(const BagConnection& connection) const {
     return IsMoving(connection.topic) || IsStatic(connection.topic);
   }
   bool IsUsed(const BagConnection& connection) const {
@@ -95,7 +105,11 @@ class BagSource : public Source {
   void TakeLinkStates(const BagMessage& message, SampleSink& sink);
   State End();
 
+  /// Why the bag has no person, and what to do about it.
+  std::string WhyNobody(const BagMessages& all) const;
+
   const std::string name_;
+  const std::string tf_topic_;
   BagSurroundings surroundings_;
   BagMessages messages_;
   tf2_msgs::TFMessage message_;
@@ -114,7 +128,7 @@ SourceError ErrorIn(const std::string& name, const std::string& what) {
 }
 
 void BagSource::ReadNames() {
-  BagMessages ahead(OpenBagFile(name_), [](const BagConnection& connection) {
+  BagMessages ahead(OpenBagFile(name_), [this](const BagConnection& connection) {
     return HasTransforms(connection) || IsLinkStates(connection);
   });
   std::map<std::string, Appearances> appearances, of_link_states;
@@ -152,17 +166,33 @@ void BagSource::ReadNames() {
     if (has_ended) CheckEnding(ahead);
     if (ahead.ending().kind == BagReader::Ending::Kind::kTruncated && has_ended) {
       throw ErrorIn(name_,
-                    fmt::format("was not closed or is truncated, and has no person on /tf in "
+                    fmt::format("was not closed or is truncated, and has no person on {} in "
                                 "its {} complete messages; record or copy it again",
-                                ahead.read()));
+                                tf_topic_, ahead.read()));
     }
-    throw ErrorIn(name_, ahead.HasTopic(IsMoving)
-                             ? "no person found on /tf; expected 23 frames with segment names, "
-                               "such as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe"
-                             : "contains neither /tf nor link_states, so no poses; record it with "
-                               "`rosbag record /tf`");
+    throw ErrorIn(name_, WhyNobody(ahead));
   }
   rate_hz_ = appearances[people_.people().front().frames[urdf::kPelvis]].rate_hz();
+}
+
+std::string BagSource::WhyNobody(const BagMessages& all) const {
+  std::set<std::string> others;
+  bool has_topic = false;
+  for (const auto& [number, connection] : all.connections()) {
+    if (IsMoving(connection.topic)) {
+      has_topic = true;
+    } else if (HasTransformType(connection) && !IsStatic(connection.topic)) {
+      others.insert(connection.topic);
+    }
+  }
+  const std::string why =
+      has_topic ? fmt::format("no person found on {}; expected 23 frames with segment names, such "
+                              "as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe",
+                              tf_topic_)
+                : fmt::format("contains neither {} nor link_states, so no poses", tf_topic_);
+  if (others.empty()) return has_topic ? why : why + "; record it with `rosbag record /tf`";
+  return fmt::format("{}. It has transforms on {}: choose {} with --tf_topic", why,
+                     fmt::join(others, ", "), others.size() == 1 ? "that" : "one of these");
 }
 
 std::string BagSource::FindWorld() {
@@ -171,7 +201,9 @@ std::string BagSource::FindWorld() {
     void OnCharacter(const Character&) override {}
     void OnSample(const BodySample&) override {}
   } nothing;
-  BagMessages ahead(OpenBagFile(name_), HasTransforms);
+  BagMessages ahead(OpenBagFile(name_), [this](const BagConnection& connection) {
+    return HasTransforms(connection);
+  });
   TransformPeople people = people_;
   SourceCounters unused;
   std::int64_t end = 0;
@@ -289,10 +321,7 @@ SourceCounters BagSource::counters() const {
 }
 
 const char* BagSource::Decode(const BagMessage& message) {
-  // tf/tfMessage in old recordings is the same message with another name.
-  if (message.connection->md5sum != ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
-    return kOtherType;
-  }
+  if (!HasTransformType(*message.connection)) return kOtherType;
   const bool is_whole = message.bytes.size() == message.size;  // not too large to be delivered
   return is_whole && kinescope::ros_bridge::Decode(message.bytes, message_) ? nullptr
                                                                             : kUnreadableTransforms;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "server/ros/markers.h"
+#include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
 
@@ -32,10 +33,6 @@ bool IsArray(const BagConnection& connection) {
 
 bool HasJoints(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::md5sum<sensor_msgs::JointState>();
-}
-
-std::string WithSlash(const std::string& topic) {
-  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }
 
 std::map<std::string, ShownStyle> ByName(const std::vector<ShownTopic>& topics) {

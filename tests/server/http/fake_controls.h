@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/http/controls.h"
@@ -33,8 +34,9 @@ class FakeControls : public Controls {
   Result SetClassLimits(const std::array<double, 2>&, Role) override { return Note("limits"); }
   Result RunTrial(const TrialOrder& order, Role) override { return Note("trial " + order.person); }
   void OnHandLoad(int, const HandLoad&, Role) override { Note("hand load"); }
-  void OnCamera(const std::string& before, const std::string& after, Role role) override {
-    Note(before + " to " + after + " by " + std::string(Name(role)));
+  void OnCamera(const std::string& before, const std::string& after,
+                std::string_view role) override {
+    Note(before + " to " + after + " by " + std::string(role));
   }
 
   std::string refusal;  // of all orders; "": none

@@ -11,7 +11,7 @@
 #include "core/system/errors.h"
 #include "render/camera/camera.h"
 #include "server/picture/camera_options.h"
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 #include "server/picture/rviz_option.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"

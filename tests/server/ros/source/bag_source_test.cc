@@ -101,9 +101,9 @@ struct ReadPeople : kinescope::testing::RecordingSink {
   double rate_hz = 0;
 };
 
-ReadPeople ReadBag(const std::string& path) {
+ReadPeople ReadBag(const std::string& path, const std::string& tf_topic = "") {
   ReadPeople recorded;
-  const auto source = OpenBag(path);
+  const auto source = OpenBag(path, {{}, {}, tf_topic});
   EXPECT_FALSE(source->is_live());
   EXPECT_EQ(source->description(), path);
   while (source->Poll(std::chrono::milliseconds(0), recorded) == Source::State::kMore) {
@@ -114,9 +114,9 @@ ReadPeople ReadBag(const std::string& path) {
   return recorded;
 }
 
-std::string RefusalOf(const std::string& path) {
+std::string RefusalOf(const std::string& path, const std::string& tf_topic = "") {
   try {
-    ReadBag(path);
+    ReadBag(path, tf_topic);
   } catch (const SourceError& error) {
     return error.what();
   }
@@ -565,8 +565,41 @@ TEST_F(BagTest, CountsRejectedTransformsByReason) {
                            Pair("transform with a position out of range", 1),
                            Pair("sample without all 23 segments", 3),
                            Pair("sample whose frames have no common parent", 1),
-                           Pair("message on /tf that is truncated or has a wrong length field", 3),
-                           Pair("message on /tf that is not a TFMessage", 1)));
+                           Pair("transforms that are truncated or have a wrong length field", 3),
+                           Pair("message on the topic of transforms that is not a TFMessage", 1)));
+}
+
+// As two suits, or a suit beside a robot, that were recorded with remapped topics.
+TEST_F(BagTest, TakesTransformsOfTheTopicThatIsChosen) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 3; ++n) {
+      const ros::Time now = RosTimeOf(kBagStart + n * kBagPeriod);
+      out.write("lab/tf", now, TransformsOf(PersonAt(n, "anna")));
+      out.write("/second/tf", now, TransformsOf(PersonAt(n, "ben")));
+    }
+  });
+  for (const char* name : {"/lab/tf", "lab/tf"}) {
+    const ReadPeople read = ReadBag(bag, name);
+    ASSERT_EQ(read.characters.size(), 1u) << name;
+    EXPECT_EQ(read.characters[0].name, "anna");
+    EXPECT_EQ(read.samples.size(), 3u);
+    EXPECT_THAT(read.counters.ignored, ElementsAre(Pair("topic /second/tf (tf2_msgs/TFMessage)", 3)));
+  }
+  EXPECT_THAT(RefusalOf(bag), AllOf(HasSubstr("contains neither /tf nor link_states"),
+                                    HasSubstr("It has transforms on /second/tf, lab/tf: choose one "
+                                              "of these with --tf_topic")));
+  EXPECT_THAT(RefusalOf(bag, "/third/tf"), HasSubstr("contains neither /third/tf nor link_states"));
+}
+
+TEST_F(BagTest, HasStaticTransformsBesideTheTopicThatIsChosen) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    tf2_msgs::TFMessage moving = TransformsOf(PersonAt(0)), still;
+    still.transforms.push_back(moving.transforms.back());
+    moving.transforms.pop_back();
+    out.write("/lab/tf_static", RosTimeOf(kBagStart), still);
+    out.write("/lab/tf", RosTimeOf(kBagStart), moving);
+  });
+  EXPECT_EQ(ReadBag(bag, "/lab/tf").samples.size(), 1u);
 }
 
 TEST_F(BagTest, RejectsCyclicFrames) {
@@ -834,7 +867,7 @@ TEST_F(BagTest, RejectsALargeMessageWithoutTakingMemoryForIt) {
   EXPECT_LT(sink.most, before + (16U << 20U));
   EXPECT_EQ(source->counters().samples, 2U);
   EXPECT_THAT(source->counters().rejected,
-              ElementsAre(Pair("message on /tf that is truncated or has a wrong length field", 1)));
+              ElementsAre(Pair("transforms that are truncated or have a wrong length field", 1)));
 }
 
 TEST_F(BagTest, ReadsATruncatedCompressedBagUpToItsEnd) {

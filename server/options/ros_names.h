@@ -15,6 +15,10 @@ inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of Sh
 
 /// A topic or a parameter: it begins with a letter, / or ~.
 [[nodiscard]] bool IsTopicName(const std::string& text);
+[[nodiscard]] bool IsTopicNameOrEmpty(const std::string& text);
+inline constexpr char kTopicNameExpected[] = "the name of a topic, such as /human/tf";
+inline constexpr char kTfTopicHelp[] =
+    "topic of the transforms of a bag, where people are looked for; default: /tf";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
 /// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/plan".

@@ -1,4 +1,4 @@
-#include "server/picture/ros_names.h"
+#include "server/options/ros_names.h"
 
 #include <algorithm>
 #include <cctype>
@@ -60,6 +60,8 @@ bool IsTopicName(const std::string& text) {
   return IsName(name) &&
          (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
 }
+
+bool IsTopicNameOrEmpty(const std::string& text) { return text.empty() || IsTopicName(text); }
 
 bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
 
