@@ -25,6 +25,8 @@ struct ShownStyle {
   std::optional<double> alpha;   // 0..1
   std::optional<double> size_m;  // of a point, the width of a line, the length of an arrow, the
                                  // radius of a sphere
+  bool has_axes = false;         // of a pose: three axes, not an arrow
+  bool is_costmap = false;       // of a map: in colours of costs
 };
 
 struct ShownTopic {

@@ -79,8 +79,8 @@ class Hub {
   void SendNews(Slot slot, const std::string& news);
 
   /// `on_camera` is called when the camera of the live picture has changed.
-  using OnCamera =
-      std::function<void(const std::string& before, const std::string& after, std::string_view role)>;
+  using OnCamera = std::function<void(const std::string& before, const std::string& after,
+                                      std::string_view role)>;
   void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
   using GetSurroundings = std::function<std::shared_ptr<const Surroundings>()>;

@@ -203,11 +203,10 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   if (config_.tls.any()) tls_.emplace(config_.tls, config_.warn);
   router_.emplace(MakeSite());
   if (config.controls != nullptr) {
-    hub_.SetOnCamera(
-        [controls = config.controls](const std::string& before, const std::string& after,
-                                     std::string_view role) {
-          controls->OnCamera(before, after, role);
-        });
+    hub_.SetOnCamera([controls = config.controls](const std::string& before,
+                                                  const std::string& after, std::string_view role) {
+      controls->OnCamera(before, after, role);
+    });
   }
   hub_.SetSurroundings(config.surroundings);
   shared_.router = &*router_;

@@ -26,6 +26,14 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.color = ColorFromHex(text);
     return style.color.has_value();
   }
+  if (key == "shape") {
+    style.has_axes = text == "axes";
+    return style.has_axes || text == "arrow";
+  }
+  if (key == "scheme") {
+    style.is_costmap = text == "costmap";
+    return style.is_costmap || text == "map";
+  }
   const auto number = options::ParseNumber(text);
   if (!number) return false;
   if (key == "alpha" && *number >= 0 && *number <= 1) {
@@ -78,7 +86,7 @@ void ShownTopicsValue::Parse(const std::string& text) {
 
 std::string ShownTopicsValue::Expected() const {
   return "up to 16 topics with commas between, such as "
-         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/plan (size in m)";
+         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes) (size in m)";
 }
 
 }  // namespace kinescope::app

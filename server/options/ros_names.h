@@ -21,7 +21,7 @@ inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
-/// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/plan".
+/// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

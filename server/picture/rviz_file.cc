@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -14,9 +13,10 @@
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
+#include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/options/yaml_file.h"
-#include "server/options/ros_names.h"
+#include "server/picture/rviz_topics.h"
 #include "server/picture/rviz_values.h"
 #include "server/picture/rviz_view.h"
 
@@ -40,35 +40,6 @@ constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "force
 std::string Shown(const std::string& text) {
   constexpr std::size_t kLongest = 300;  // bytes
   return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
-}
-
-// Of a display whose topic has messages that are shown as markers (server/ros/shown_messages.h).
-struct ShownProperties {
-  const char* kind;
-  const char* color;                      // null: of points, by "Color Transformer"
-  std::array<const char*, 2> sizes = {};  // their sum
-  // The sizes count unless this property, which is usually `usually`, is `not_if`.
-  const char* only_if = nullptr;
-  const char* not_if = "";
-  const char* usually = "";
-};
-constexpr ShownProperties kTopicDisplays[] = {
-    {"rviz/PointStamped", "Color", {"Radius"}},
-    {"rviz/Pose", "Color", {"Shaft Length", "Head Length"}},
-    {"rviz/PoseArray", "Color", {"Arrow Length"}},
-    {"rviz/Path", "Color", {"Line Width"}, "Line Style", "Lines", "Lines"},
-    {"rviz/LaserScan", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/PointCloud2", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/WrenchStamped", "Force Color"}};
-
-bool IsTopicDisplay(const std::string& kind) {
-  return std::any_of(std::begin(kTopicDisplays), std::end(kTopicDisplays),
-                     [&](const ShownProperties& each) { return each.kind == kind; });
-}
-
-const ShownProperties& PropertiesOf(const std::string& kind) {
-  return *std::find_if(std::begin(kTopicDisplays), std::end(kTopicDisplays),
-                       [&](const ShownProperties& each) { return each.kind == kind; });
 }
 
 std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
@@ -160,7 +131,7 @@ class RvizReader {
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
       ReadTopic(display, called, "Marker Topic", "");
-    } else if (IsTopicDisplay(kind)) {
+    } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/TF") {
       has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
@@ -192,41 +163,12 @@ class RvizReader {
     }
   }
 
-  // Colours, opacity and size, as --marker_topics has them; what else the display has is named.
+  // What the display has otherwise is named.
   std::string StyleOf(const YAML::Node& display, const std::string& kind,
                       const std::string& called) {
-    const ShownProperties& has = PropertiesOf(kind);
-    std::string style;
-    const auto add = [&](const std::string& item) { style += (style.empty() ? "" : ",") + item; };
-    const std::string transformer = TextOf(display, "Color Transformer", "");
-    const bool is_cloud = has.color == nullptr;
-    if (is_cloud && !transformer.empty() && transformer != "FlatColor" && transformer != "RGB8" &&
-        transformer != "Intensity") {
-      Remark(display, called + ": Color Transformer " + Quoted(transformer) +
-                          " is not taken; its points have the colours of the message");
-    }
-    const char* const color = is_cloud ? (transformer == "FlatColor" ? "Color" : "") : has.color;
-    if (Member(display, color).IsDefined()) {
-      const auto rgb = rviz::ColorOf(display, color, {1, 1, 1});
-      if (rgb) add("color=" + ToHex(*rgb));
-    }
-    if (Member(display, "Alpha").IsDefined()) {
-      const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
-      if (alpha < 1) add("alpha=" + options::NumberText(alpha));
-    }
-    const bool has_size = !(has.only_if != nullptr &&
-                            TextOf(display, has.only_if, has.usually) == std::string(has.not_if));
-    double size = 0;
-    for (const char* const part : has.sizes) {
-      if (part != nullptr) size += rviz::NumberOf(display, part, 0, 0, kLargestShown);
-    }
-    if (has_size && size >= kSmallestShown)
-      add("size=" + options::NumberText(std::min(size, kLargestShown)));
-    const std::string shape = TextOf(display, "Shape", "");
-    if (shape == "Axes" || shape == "Arrow (3D)") {
-      Remark(display, called + ": Shape " + Quoted(shape) + " is drawn as a plain arrow");
-    }
-    return style.empty() ? "" : "(" + style + ")";
+    rviz::TopicStyle style = rviz::StyleOf(display, kind);
+    for (const std::string& remark : style.remarks) Remark(display, called + ": " + remark);
+    return std::move(style.text);
   }
 
   void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,

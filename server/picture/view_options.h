@@ -8,10 +8,10 @@
 
 #include "render/renderer.h"
 #include "server/options/option_list.h"
+#include "server/options/ros_names.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
-#include "server/options/ros_names.h"
 #include "server/picture/trail_options.h"
 
 namespace kinescope::app {

@@ -287,7 +287,8 @@ void MasterRegistration::Start() {
   if (config_.settings.get) {
     node_topics->settings =
         Topic<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", Latch::kYes);
-    node_topics->settings_now = Topic<dynamic_reconfigure::Config>("parameter_updates", Latch::kYes);
+    node_topics->settings_now =
+        Topic<dynamic_reconfigure::Config>("parameter_updates", Latch::kYes);
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   node_topics_ = std::move(node_topics);

@@ -24,9 +24,9 @@ struct WantedSettings {
   SettingsChange change;             // of `now`
   std::vector<std::string> refused;  // why not, of each parameter that is not taken
 };
-/// What a client asks for. Numbers outside the range of their parameter become its nearest limit, as
-/// dynamic_reconfigure does it. Unknown names, numbers that are none and texts that are not among the
-/// choices are refused.
+/// What a client asks for. Numbers outside the range of their parameter become its nearest limit,
+/// as dynamic_reconfigure does it. Unknown names, numbers that are none and texts that are not
+/// among the choices are refused.
 WantedSettings ReadConfig(const dynamic_reconfigure::Config& wanted, const LiveSettings& now,
                           const std::vector<std::string>& cameras);
 

@@ -1,15 +1,21 @@
 /// Messages of other nodes that RViz has displays for (poses, paths, points, wrenches, laser scans,
-/// point clouds), as markers: so they go the way of all external markers, to the page, to pictures
-/// and to clips. Shapes and colours are the defaults of RViz 1.14, except where the functions say
-/// otherwise. Pure functions, any thread.
+/// point clouds, maps), as markers: so they go the way of all external markers, to the page, to
+/// pictures and to clips. Shapes and colours are the defaults of RViz 1.14, except where the
+/// functions say otherwise. Pure functions, any thread.
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PolygonStamped.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
+#include <nav_msgs/GridCells.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/Marker.h>
 
@@ -29,18 +35,32 @@ using ShownMarkers = std::vector<visualization_msgs::Marker>;
 /// A cloud may have more points than a page can take ten times a second: every n-th is shown, which
 /// makes 3 MB of triangles.
 inline constexpr std::size_t kMostCloudPoints = 4'000;
+inline constexpr std::size_t kMostMapRectangles = 4'000;
 
 /// A sphere with a radius of 0.2 m.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message,
                               const ShownStyle& style = {});
-/// An arrow of 1.3 m along x.
+/// An arrow of 1.3 m along x, or axes of 1 m.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message,
                               const ShownStyle& style = {});
-/// Flat arrows of 0.3 m; lines of 6 mm, because a marker has no width in pixels.
+/// The same; the covariance is not shown.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseWithCovarianceStamped& message,
+                              const ShownStyle& style = {});
+/// The same, of the newest pose alone.
+Taken<ShownMarkers> ToMarkers(const nav_msgs::Odometry& message, const ShownStyle& style = {});
+/// Flat arrows of 0.3 m; lines of 6 mm, because a marker has no width in pixels. Or axes of 0.3 m.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message,
                               const ShownStyle& style = {});
 /// A line through the positions, in the frame of the path, as in RViz; 2 cm wide.
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style = {});
+/// Its edges, as a path has them.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,
+                              const ShownStyle& style = {});
+/// Squares, 5 mm above their frame, because a floor lies at 0.
+Taken<ShownMarkers> ToMarkers(const nav_msgs::GridCells& message, const ShownStyle& style = {});
+/// Cells in the colours of RViz's scheme "map", 5 mm above their frame; of a map that has more than
+/// kMostMapRectangles of equal cells, 2, 4, 8, ... of them are shown as one: the most occupied.
+Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const ShownStyle& style = {});
 /// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m.
 /// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none. A size is not taken.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
@@ -50,6 +70,8 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
 /// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white.
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message,
                               const ShownStyle& style = {});
+
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style = {});
 
 /// The markers of serialised bytes; or why there are none.
 using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes,

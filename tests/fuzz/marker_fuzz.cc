@@ -74,7 +74,7 @@ void CheckShown(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 13) {
+  switch (data[0] % 19) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -95,7 +95,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 9: CheckShown<nav_msgs::Path>(bytes); break;
     case 10: CheckShown<geometry_msgs::WrenchStamped>(bytes); break;
     case 11: CheckShown<sensor_msgs::LaserScan>(bytes); break;
-    default: CheckShown<sensor_msgs::PointCloud2>(bytes); break;
+    case 12: CheckShown<sensor_msgs::PointCloud2>(bytes); break;
+    case 13: CheckShown<geometry_msgs::PoseWithCovarianceStamped>(bytes); break;
+    case 14: CheckShown<geometry_msgs::PolygonStamped>(bytes); break;
+    case 15: CheckShown<nav_msgs::Odometry>(bytes); break;
+    case 16: CheckShown<nav_msgs::GridCells>(bytes); break;
+    case 17: CheckShown<nav_msgs::OccupancyGrid>(bytes); break;
+    default: CheckShown<sensor_msgs::PointCloud>(bytes); break;
   }
   return 0;
 }

@@ -259,7 +259,8 @@ ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, std::
     log_.Note(role, "stature of " + who, fmt::format("{:.3g} m", before),
               fmt::format("{:.3g} m", *change.height_m));
   }
-  if (change.name) log_.Note(role, "name of person " + std::to_string(character), who, *change.name);
+  if (change.name)
+    log_.Note(role, "name of person " + std::to_string(character), who, *change.name);
   stated.Add(change);
   parts_.changes.Put(character, change);
   status_due_nanos_ = 0;

@@ -122,8 +122,9 @@ std::optional<Result> RosDesk::OnPage(std::function<Result()> work) const {
 RosAnswer RosDesk::Record(bool run) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!parts_ || parts_->desk == nullptr) return {false, kNotNow};
-  const auto file = OnPage<ControlDesk::Recorded>(
-      [run, desk = parts_->desk] { return desk->Record({run, ""}, kRosRole); });
+  const auto file = OnPage<ControlDesk::Recorded>([run, desk = parts_->desk] {
+    return desk->Record({run, ""}, kRosRole);
+  });
   if (!file) return {false, kNotNow};
   if (!*file) return {false, file->error().reason};
   return {true, std::filesystem::absolute(parts_->folder.path() / **file).string()};

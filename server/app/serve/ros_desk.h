@@ -42,8 +42,8 @@ class RosDesk {
   /// Starts or stops a recording. @return its file. Any thread; waits for the page's thread.
   ros_bridge::RosAnswer Record(bool run);
 
-  /// Of the newest sample; nullopt before Open() and after Close(). Any thread; waits for the page's
-  /// thread.
+  /// Of the newest sample; nullopt before Open() and after Close(). Any thread; waits for the
+  /// page's thread.
   std::optional<ros_bridge::LiveSettings> Settings();
   /// Changes what can be changed. Any thread; waits for the page's thread.
   ros_bridge::RosAnswer Change(const ros_bridge::SettingsChange& wanted);

@@ -11,8 +11,8 @@
 #include "core/picture_limits.h"
 #include "core/system/utf8.h"
 #include "server/marks/mark_book.h"
-#include "server/options/text.h"
 #include "server/options/ros_names.h"
+#include "server/options/text.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {

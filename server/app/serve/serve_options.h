@@ -4,11 +4,11 @@
 #include <string>
 
 #include "server/options/option_list.h"
+#include "server/options/ros_names.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
 #include "server/picture/people_look.h"
-#include "server/options/ros_names.h"
 #include "server/picture/rviz_option.h"
 #include "server/picture/trail_options.h"
 #include "server/picture/view_options.h"

@@ -140,8 +140,8 @@ Server::Server(const ServeConfig& config)
     StartControls(config);
     StartPage(config);
   }
-  ros_desk_.Open({states_, builder_.InitialModel(), changes_, live_pictures_.get(), page_ ? &*page_ : nullptr, desk_.get(),
-                  recordings_});
+  ros_desk_.Open({states_, builder_.InitialModel(), changes_, live_pictures_.get(),
+                  page_ ? &*page_ : nullptr, desk_.get(), recordings_});
   listener_.reset();
 }
 

@@ -165,10 +165,9 @@ void BagSource::ReadNames() {
   if (people_.people().empty()) {
     if (has_ended) CheckEnding(ahead);
     if (ahead.ending().kind == BagReader::Ending::Kind::kTruncated && has_ended) {
-      throw ErrorIn(name_,
-                    fmt::format("was not closed or is truncated, and has no person on {} in "
-                                "its {} complete messages; record or copy it again",
-                                tf_topic_, ahead.read()));
+      throw ErrorIn(name_, fmt::format("was not closed or is truncated, and has no person on {} in "
+                                       "its {} complete messages; record or copy it again",
+                                       tf_topic_, ahead.read()));
     }
     throw ErrorIn(name_, WhyNobody(ahead));
   }
@@ -186,9 +185,10 @@ std::string BagSource::WhyNobody(const BagMessages& all) const {
     }
   }
   const std::string why =
-      has_topic ? fmt::format("no person found on {}; expected 23 frames with segment names, such "
-                              "as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe",
-                              tf_topic_)
+      has_topic ? fmt::format(
+                      "no person found on {}; expected 23 frames with segment names, such "
+                      "as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe",
+                      tf_topic_)
                 : fmt::format("contains neither {} nor link_states, so no poses", tf_topic_);
   if (others.empty()) return has_topic ? why : why + "; record it with `rosbag record /tf`";
   return fmt::format("{}. It has transforms on {}: choose {} with --tf_topic", why,
@@ -201,9 +201,8 @@ std::string BagSource::FindWorld() {
     void OnCharacter(const Character&) override {}
     void OnSample(const BodySample&) override {}
   } nothing;
-  BagMessages ahead(OpenBagFile(name_), [this](const BagConnection& connection) {
-    return HasTransforms(connection);
-  });
+  BagMessages ahead(OpenBagFile(name_),
+                    [this](const BagConnection& connection) { return HasTransforms(connection); });
   TransformPeople people = people_;
   SourceCounters unused;
   std::int64_t end = 0;

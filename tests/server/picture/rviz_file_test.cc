@@ -10,8 +10,8 @@
 
 #include "core/system/errors.h"
 #include "render/camera/camera.h"
-#include "server/picture/camera_options.h"
 #include "server/options/ros_names.h"
+#include "server/picture/camera_options.h"
 #include "server/picture/rviz_option.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
@@ -222,7 +222,7 @@ Visualization Manager:
         - {Class: rviz/LaserScan, Enabled: true, Name: Scan, Topic: "/scan;rm"}
         - {Class: rviz/Odometry, Enabled: true, Name: Odometry, Topic: /odom}
 )");
-  ASSERT_EQ(picture.topics.size(), 3u);
+  ASSERT_EQ(picture.topics.size(), 4u);
   EXPECT_EQ(picture.topics[0].name, "/move/goal");
   EXPECT_EQ(picture.topics[0].display, "rviz/Pose 'Goal'");
   EXPECT_EQ(picture.topics[0].line, 4);
@@ -230,7 +230,9 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[2].name, "/plan");
   EXPECT_EQ(picture.topics[2].style, "");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
-  EXPECT_THAT(picture.remarks, Contains(HasSubstr("rviz/Odometry 'Odometry' is not drawn")));
+  EXPECT_EQ(picture.topics[3].name, "/odom");
+  EXPECT_THAT(picture.remarks, Contains("saved.rviz:12: rviz/Odometry 'Odometry': only the newest "
+                                        "pose is drawn (Keep '100')"));
 }
 
 TEST(RvizFile, HasColoursOpacityAndSizesOfDisplays) {
@@ -238,7 +240,7 @@ TEST(RvizFile, HasColoursOpacityAndSizesOfDisplays) {
 Visualization Manager:
   Displays:
     - {Class: rviz/PointStamped, Enabled: true, Topic: /a, Color: 255; 0; 16, Alpha: 0.5, Radius: 0.1}
-    - {Class: rviz/Pose, Enabled: true, Topic: /b, Shape: Axes, Shaft Length: 0.5, Head Length: 0.25}
+    - {Class: rviz/Pose, Enabled: true, Topic: /b, Shape: Axes, Shaft Length: 0.5, Axes Length: 0.4}
     - {Class: rviz/Path, Enabled: true, Topic: /c, Color: 25; 255; 0, Line Style: Lines, Line Width: 0.2}
     - {Class: rviz/Path, Enabled: true, Topic: /d, Line Style: Billboards, Line Width: 0.2}
     - {Class: rviz/PointCloud2, Enabled: true, Topic: /e, Color Transformer: FlatColor,
@@ -249,6 +251,11 @@ Visualization Manager:
     - {Class: rviz/WrenchStamped, Enabled: true, Topic: /h, Force Color: 1; 2; 3}
     - {Class: rviz/PoseArray, Enabled: true, Topic: /i, Arrow Length: 0.5}
     - {Class: rviz/Pose, Enabled: true, Topic: /j, Shaft Length: 9, Head Length: 8}
+    - {Class: rviz/Odometry, Enabled: true, Topic: /k, Keep: 1, Covariance: {Value: true},
+       Shape: {Value: Arrow, Color: 0; 0; 255, Alpha: 0.5, Shaft Length: 0.5, Head Length: 0.25}}
+    - {Class: rviz/Map, Enabled: true, Topic: /l, Color Scheme: costmap, Alpha: 0.25, Draw Behind: true}
+    - {Class: rviz/Map, Enabled: true, Topic: /m, Color Scheme: raw}
+    - {Class: rviz/Polygon, Enabled: true, Topic: /n, Color: 25; 255; 0}
 )");
   std::vector<std::string> styles;
   std::string all;
@@ -256,14 +263,21 @@ Visualization Manager:
     styles.push_back(topic.style);
     all += (all.empty() ? "" : ",") + topic.name + topic.style;
   }
-  EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(size=0.75)",
+  EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)",
                                   "(color=#19ff00)", "(size=0.2)", "(color=#00ff80,size=0.03)", "",
-                                  "", "(color=#010203)", "(size=0.5)", "(size=10)"));
-  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Shape 'Axes' is drawn as a plain arrow")));
+                                  "", "(color=#010203)", "(size=0.5)", "(size=10)",
+                                  "(color=#0000ff,alpha=0.5,size=0.75)",
+                                  "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)"));
+  for (const char* remark : {"'': Covariance is not drawn", "Draw Behind 'true': it is drawn in",
+                             "Color Scheme 'raw' is drawn as 'map'"}) {
+    EXPECT_THAT(picture.remarks, Contains(HasSubstr(remark)));
+  }
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("Color Transformer 'AxisColor' is not taken")));
   ShownTopicsValue value;
   value.Parse(all);
-  ASSERT_EQ(value->size(), 10u);
+  ASSERT_EQ(value->size(), 14u);
+  EXPECT_TRUE((*value)[1].style.has_axes);
+  EXPECT_TRUE((*value)[11].style.is_costmap);
   EXPECT_EQ((*value)[0].style.alpha, 0.5);
   EXPECT_EQ((*value)[0].style.size_m, 0.1);
   EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
@@ -271,8 +285,9 @@ Visualization Manager:
 }
 
 TEST(RvizFile, RefusesStylesThatSayNothing) {
-  for (const char* bad : {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)",
-                          "/a(alpha=2)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
+  for (const char* bad :
+       {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)", "/a(alpha=2)",
+        "/a(shape=cube)", "/a(scheme=raw)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
     ShownTopicsValue value;
     EXPECT_THROW(value.Parse(bad), options::BadValue) << bad;
   }

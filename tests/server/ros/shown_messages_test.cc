@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "server/ros/marker_input.h"
 
@@ -234,10 +235,148 @@ TEST(ShownMessages, ACloudThatContradictsItselfIsRefused) {
   EXPECT_THAT(why(bad), HasSubstr("no fields"));
 }
 
+TEST(ShownMessages, APoseMayHaveAxes) {
+  auto odometry = InFrame<nav_msgs::Odometry>();
+  odometry.pose.pose.position.z = 1;
+  odometry.pose.pose.orientation.z = odometry.pose.pose.orientation.w = std::sqrt(0.5);
+  EXPECT_EQ(ShownOf(odometry).at(0).type, Marker::ARROW);
+  ShownStyle axes;
+  axes.has_axes = true;
+  axes.size_m = 0.5;
+  axes.alpha = 0.25;
+  const ShownMarkers markers = ShownOf(odometry, axes);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::LINE_LIST);
+  ASSERT_THAT(markers[0].points, SizeIs(6));
+  EXPECT_NEAR(markers[0].points[1].y, 0.5, 1e-12) << "its x points along y";
+  EXPECT_NEAR(markers[0].points[3].x, -0.5, 1e-12);
+  EXPECT_NEAR(markers[0].points[5].z, 1.5, 1e-12);
+  EXPECT_EQ(RgbOf(markers[0].colors.at(1)), (std::array<int, 3>{255, 0, 0}));
+  EXPECT_EQ(RgbOf(markers[0].colors.at(4)), (std::array<int, 3>{0, 0, 255}));
+  EXPECT_EQ(markers[0].colors.at(4).a, 0.25F);
+  EXPECT_DOUBLE_EQ(markers[0].scale.x, 0.05);
+  auto poses = InFrame<geometry_msgs::PoseArray>();
+  poses.poses.resize(2);
+  EXPECT_THAT(ShownOf(poses, axes).at(0).points, SizeIs(12));
+  EXPECT_EQ(ShownOf(InFrame<geometry_msgs::PoseWithCovarianceStamped>()).at(0).type, Marker::ARROW);
+}
+
+TEST(ShownMessages, APolygonIsClosed) {
+  auto polygon = InFrame<geometry_msgs::PolygonStamped>();
+  polygon.polygon.points.resize(3);
+  polygon.polygon.points[0].x = 2;
+  const ShownMarkers markers = ShownOf(polygon);
+  ASSERT_THAT(markers.at(0).points, SizeIs(4));
+  EXPECT_EQ(markers[0].points.front(), markers[0].points.back());
+  polygon.polygon.points.resize(1);
+  EXPECT_EQ(ShownOf(polygon).at(0).action, Marker::DELETE);
+}
+
+TEST(ShownMessages, CellsAreSquaresAroundTheirPlaces) {
+  auto grid = InFrame<nav_msgs::GridCells>();
+  grid.cell_width = 0.5F;
+  grid.cell_height = 0.25F;
+  grid.cells.resize(2);
+  grid.cells[1].x = 3;
+  grid.cells[1].z = 1;
+  const ShownMarkers markers = ShownOf(grid);
+  ASSERT_THAT(markers.at(0).points, SizeIs(12));
+  EXPECT_DOUBLE_EQ(markers[0].points[6].x, 2.75);
+  EXPECT_DOUBLE_EQ(markers[0].points[6].y, -0.125);
+  EXPECT_DOUBLE_EQ(markers[0].points[6].z, 1.005);
+}
+
+nav_msgs::OccupancyGrid MapOf(std::uint32_t width, std::uint32_t height) {
+  auto map = InFrame<nav_msgs::OccupancyGrid>();
+  map.info.resolution = 0.5;
+  map.info.origin.position.x = -7;
+  map.info.origin.orientation.w = 1;
+  map.info.width = width;
+  map.info.height = height;
+  map.data.resize(std::size_t{width} * height);
+  return map;
+}
+
+// The area of the triangles of each colour, m^2.
+std::map<std::array<int, 3>, double> AreasOf(const Marker& triangles) {
+  std::map<std::array<int, 3>, double> areas;
+  for (std::size_t i = 0; i + 2 < triangles.points.size(); i += 3) {
+    const auto &a = triangles.points[i], &b = triangles.points[i + 1], &c = triangles.points[i + 2];
+    areas[RgbOf(triangles.colors.at(i))] +=
+        std::abs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+  }
+  return areas;
+}
+
+TEST(ShownMessages, AMapHasItsCellsInColoursOfRviz) {
+  nav_msgs::OccupancyGrid map = MapOf(4, 3);
+  map.data[5] = map.data[9] = 100;  // a wall of two cells, (1, 1) and (1, 2)
+  map.data[3] = -1;
+  const ShownMarkers markers = ShownOf(map);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].pose.position.x, -7);
+  EXPECT_EQ(markers[0].colors.at(0).a, 0.7F);
+  const std::array<int, 3> free = {255, 255, 255}, wall = {0, 0, 0}, unknown = {112, 137, 134};
+  const auto areas = AreasOf(markers[0]);
+  EXPECT_THAT(areas, SizeIs(3));
+  EXPECT_DOUBLE_EQ(areas.at(free), 9 * 0.25);
+  EXPECT_DOUBLE_EQ(areas.at(wall), 2 * 0.25);
+  EXPECT_DOUBLE_EQ(areas.at(unknown), 0.25);
+  EXPECT_THAT(markers[0].points, SizeIs(6 * 5)) << "equal cells are joined";
+  ShownStyle costs;
+  costs.is_costmap = true;
+  map.data[3] = 50;
+  const auto of_costs = AreasOf(ShownOf(map, costs).at(0));
+  EXPECT_THAT(of_costs, SizeIs(2)) << "no cost is transparent";
+  EXPECT_DOUBLE_EQ(of_costs.at({255, 0, 255}), 2 * 0.25);
+  EXPECT_DOUBLE_EQ(of_costs.at({127, 0, 128}), 0.25);
+}
+
+TEST(ShownMessages, AMapOfManyCellsKeepsItsWallsAndItsSize) {
+  nav_msgs::OccupancyGrid map = MapOf(401, 301);
+  for (std::size_t i = 0; i < map.data.size(); i += 2) map.data[i] = 100;  // a chessboard
+  const ShownMarkers markers = ShownOf(map);
+  EXPECT_LE(markers.at(0).points.size(), 6 * kMostMapRectangles);
+  const auto areas = AreasOf(markers[0]);
+  ASSERT_THAT(areas, SizeIs(1));
+  EXPECT_NEAR(areas.at({0, 0, 0}), 402 * 302 * 0.25, 1e-6) << "with the rest of the last cells";
+}
+
+TEST(ShownMessages, AMapThatLiesIsRefused) {
+  const auto why = [](const nav_msgs::OccupancyGrid& map) {
+    const auto markers = ToMarkers(map);
+    return markers ? std::string() : markers.error().text;
+  };
+  nav_msgs::OccupancyGrid map = MapOf(4, 3);
+  EXPECT_EQ(why(map), "");
+  map.info.width = 0x80000000;
+  map.info.height = 2;  // 0 in 32 bits
+  EXPECT_EQ(why(map), "a map: it states more cells than it has");
+  map.info.height = 0;
+  EXPECT_EQ(ShownOf(map).at(0).action, Marker::DELETE);
+  map = MapOf(4, 3);
+  map.info.resolution = std::nanf("");
+  EXPECT_EQ(why(map), "a map: its resolution is not above 0");
+}
+
+TEST(ShownMessages, APointCloudOfTheOldTypeHasItsIntensities) {
+  auto cloud = InFrame<sensor_msgs::PointCloud>();
+  cloud.points.resize(3);
+  cloud.points[2].z = std::nanf("");
+  cloud.channels.resize(1);
+  cloud.channels[0].name = "intensity";
+  cloud.channels[0].values = {1, 5, 9};
+  const ShownMarkers markers = ShownOf(cloud);
+  ASSERT_THAT(markers.at(0).points, SizeIs(2));
+  EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{255, 0, 0})) << "the least";
+  cloud.channels[0].values.pop_back();
+  EXPECT_THAT(ShownOf(cloud).at(0).colors, SizeIs(0)) << "not one for each point";
+}
+
 TEST(ShownMessages, OtherTypesAreNone) {
   EXPECT_EQ(FindShownMessage(ros::message_traits::md5sum<visualization_msgs::Marker>()), nullptr);
   EXPECT_EQ(FindShownMessage(""), nullptr);
-  EXPECT_THAT(NamesOfShownMessages(), HasSubstr("nav_msgs/Path, geometry_msgs/WrenchStamped"));
+  EXPECT_THAT(NamesOfShownMessages(), HasSubstr("nav_msgs/Path, nav_msgs/Odometry"));
 }
 
 TEST(ShownMessages, TruncatedOnesAreRefused) {

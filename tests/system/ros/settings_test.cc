@@ -17,8 +17,8 @@ namespace {
 
 using http::testing::Fetch;
 using nlohmann::json;
-using testing::RunProgram;
 using ::testing::HasSubstr;
+using testing::RunProgram;
 
 class SettingsOverRos : public testing::RosProgram {
  protected:
@@ -54,8 +54,9 @@ TEST_F(SettingsOverRos, ChangeLimitsPersonAndCameraAndSayWhatThePageChanges) {
   EXPECT_EQ(numbers_["class_high"], 0.6);
   EXPECT_EQ(texts_["camera"], "three_quarter");
 
-  Dynparam({"set", "/kinescope", "{'class_high': 0.8, 'mass': 82.5, 'sex': 'female', 'camera': "
-                                 "'front'}"});
+  Dynparam({"set", "/kinescope",
+            "{'class_high': 0.8, 'mass': 82.5, 'sex': 'female', 'camera': "
+            "'front'}"});
   ASSERT_TRUE(Spin([&] { return controls()["people"][0]["mass_kg"]["value"] == 82.5; }));
   EXPECT_EQ(controls()["people"][0]["sex"]["value"], "female");
   EXPECT_EQ(controls()["class_limits"]["value"], json({0.3, 0.8}));

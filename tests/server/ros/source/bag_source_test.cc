@@ -583,7 +583,8 @@ TEST_F(BagTest, TakesTransformsOfTheTopicThatIsChosen) {
     ASSERT_EQ(read.characters.size(), 1u) << name;
     EXPECT_EQ(read.characters[0].name, "anna");
     EXPECT_EQ(read.samples.size(), 3u);
-    EXPECT_THAT(read.counters.ignored, ElementsAre(Pair("topic /second/tf (tf2_msgs/TFMessage)", 3)));
+    EXPECT_THAT(read.counters.ignored,
+                ElementsAre(Pair("topic /second/tf (tf2_msgs/TFMessage)", 3)));
   }
   EXPECT_THAT(RefusalOf(bag), AllOf(HasSubstr("contains neither /tf nor link_states"),
                                     HasSubstr("It has transforms on /second/tf, lab/tf: choose one "

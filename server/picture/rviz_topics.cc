@@ -1,0 +1,159 @@
+#include "server/picture/rviz_topics.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/suit_colors.h"
+#include "server/options/ros_names.h"
+#include "server/options/text.h"
+#include "server/picture/rviz_values.h"
+
+namespace kinescope::app::rviz {
+namespace {
+
+// Where they are: Odometry has some of them below its property "Shape".
+struct ShownProperties {
+  const char* kind;
+  const char* color = nullptr;            // null: of points, by "Color Transformer"
+  std::array<const char*, 2> sizes = {};  // their sum
+  // The sizes count unless this property, which is usually `usually`, is `not_if`.
+  const char* only_if = nullptr;
+  const char* not_if = "";
+  const char* usually = "";
+  const char* shapes = nullptr;  // the property that says Axes, in place of an arrow
+};
+constexpr char kNone[] = "";  // no property has this name
+constexpr ShownProperties kTopicDisplays[] = {
+    {"rviz/PointStamped", "Color", {"Radius"}},
+    {"rviz/Pose", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Shape"},
+    {"rviz/PoseWithCovariance", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Shape"},
+    {"rviz/Odometry", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Value"},
+    {"rviz/PoseArray", "Color", {"Arrow Length"}, nullptr, "", "", "Shape"},
+    {"rviz/Path", "Color", {"Line Width"}, "Line Style", "Lines", "Lines"},
+    {"rviz/Polygon", "Color"},
+    {"rviz/GridCells", "Color"},
+    {"rviz/Map", kNone},
+    {"rviz/LaserScan", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/PointCloud", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/PointCloud2", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/WrenchStamped", "Force Color"}};
+
+// Of any of them: what makes a difference if it is not as usual.
+struct Untaken {
+  const char* property;
+  const char* usual;
+  const char* otherwise;
+};
+constexpr Untaken kUntaken[] = {
+    {"Decay Time", "0", "only the newest points are drawn"},
+    {"History Length", "1", "only the newest is drawn"},
+    {"Buffer Length", "1", "only the newest is drawn"},
+    {"Pose Style", "None", "poses along the line are not drawn"},
+    {"Draw Behind", "false", "it is drawn in front of what is below it"}};
+constexpr const char* kKeepingDisplay = "rviz/Odometry";
+
+const ShownProperties* Find(const std::string& kind) {
+  const auto* const found =
+      std::find_if(std::begin(kTopicDisplays), std::end(kTopicDisplays),
+                   [&](const ShownProperties& each) { return each.kind == kind; });
+  return found == std::end(kTopicDisplays) ? nullptr : found;
+}
+
+class StyleReader {
+ public:
+  StyleReader(const YAML::Node& display, const std::string& kind)
+      : display_(display), kind_(kind), has_(*Find(kind)) {
+    const YAML::Node below = Member(display, "Shape");
+    properties_ = below.IsDefined() && below.IsMap() ? below : display;
+  }
+
+  TopicStyle Read() {
+    AddColor();
+    if (Member(properties_, "Alpha").IsDefined()) {
+      const double alpha = NumberOf(properties_, "Alpha", 1, 0, 1);
+      if (alpha < 1) Add("alpha=" + options::NumberText(alpha));
+    }
+    AddShapeAndSize();
+    if (kind_ == "rviz/Map") AddScheme();
+    NameUntaken();
+    if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
+    return std::move(style_);
+  }
+
+ private:
+  void Add(const std::string& item) { style_.text += (style_.text.empty() ? "" : ",") + item; }
+  void Remark(const std::string& what) { style_.remarks.push_back(what); }
+
+  void AddColor() {
+    const std::string transformer = TextOf(display_, "Color Transformer", "");
+    const bool is_cloud = has_.color == nullptr;
+    if (is_cloud && !transformer.empty() && transformer != "FlatColor" && transformer != "RGB8" &&
+        transformer != "Intensity") {
+      Remark("Color Transformer '" + transformer +
+             "' is not taken; its points have the colours of the message");
+    }
+    const char* const color = is_cloud ? (transformer == "FlatColor" ? "Color" : "") : has_.color;
+    if (!Member(properties_, color).IsDefined()) return;
+    const auto rgb = ColorOf(properties_, color, {1, 1, 1});
+    if (rgb) Add("color=" + ToHex(*rgb));
+  }
+
+  void AddShapeAndSize() {
+    const std::string shape = has_.shapes == nullptr ? "" : TextOf(properties_, has_.shapes, "");
+    double size = 0;
+    if (shape == "Axes") {
+      Add("shape=axes");
+      size = NumberOf(properties_, "Axes Length", 0, 0, kLargestShown);
+    } else if (has_.only_if == nullptr ||
+               TextOf(display_, has_.only_if, has_.usually) != std::string(has_.not_if)) {
+      for (const char* const part : has_.sizes) {
+        if (part != nullptr) size += NumberOf(properties_, part, 0, 0, kLargestShown);
+      }
+    }
+    if (shape == "Arrow (3D)") Remark("Shape 'Arrow (3D)' is drawn as flat arrows");
+    if (size >= kSmallestShown) {
+      Add("size=" + options::NumberText(std::min(size, kLargestShown)));
+    }
+  }
+
+  void AddScheme() {
+    const std::string scheme = TextOf(display_, "Color Scheme", "map");
+    if (scheme == "costmap") {
+      Add("scheme=costmap");
+    } else if (scheme != "map") {
+      Remark("Color Scheme '" + scheme + "' is drawn as 'map'");
+    }
+  }
+
+  void NameUntaken() {
+    for (const Untaken& each : kUntaken) {
+      const std::string value = TextOf(display_, each.property, each.usual);
+      if (value != each.usual) {
+        Remark(std::string(each.property) + " '" + value + "': " + each.otherwise);
+      }
+    }
+    if (kind_ == kKeepingDisplay && TextOf(display_, "Keep", "100") != "1") {
+      Remark("only the newest pose is drawn (Keep '" + TextOf(display_, "Keep", "100") + "')");
+    }
+    const YAML::Node covariance = Member(display_, "Covariance");
+    if (covariance.IsDefined() && BoolOf(covariance, "Value", true)) {
+      Remark("Covariance is not drawn");
+    }
+  }
+
+  const YAML::Node display_;
+  YAML::Node properties_;
+  const std::string kind_;
+  const ShownProperties& has_;
+  TopicStyle style_;
+};
+
+}  // namespace
+
+bool IsTopicDisplay(const std::string& kind) { return Find(kind) != nullptr; }
+
+TopicStyle StyleOf(const YAML::Node& display, const std::string& kind) {
+  return StyleReader(display, kind).Read();
+}
+
+}  // namespace kinescope::app::rviz

@@ -1,0 +1,218 @@
+// Laser scans and point clouds as markers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "server/ros/shown_messages.h"
+#include "server/ros/shown_parts.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kPointSize = 0.01;  // m
+
+// rviz/default_plugin/point_cloud_transformers.cpp: saturated hues through six stops; the smallest
+// value is red and the largest magenta.
+std_msgs::ColorRGBA Rainbow(double share) {
+  static constexpr std::array<std::array<float, 3>, 6> kStops = {
+      {{1, 0, 1}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}};
+  const double at = 5 * std::clamp(1 - share, 0.0, 1.0);
+  const auto first = std::min(static_cast<std::size_t>(at), std::size_t{4});
+  const auto part = static_cast<float>(at - static_cast<double>(first));
+  const auto channel = [&](std::size_t i) {
+    return (1 - part) * kStops[first][i] + part * kStops[first + 1][i];
+  };
+  std_msgs::ColorRGBA color;
+  color.r = channel(0);
+  color.g = channel(1);
+  color.b = channel(2);
+  color.a = 1;
+  return color;
+}
+
+// One colour for each value, between the smallest and the largest of them.
+std::vector<std_msgs::ColorRGBA> RainbowOf(const std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  std::vector<std_msgs::ColorRGBA> colors;
+  colors.reserve(values.size());
+  for (const double value : values) {
+    const bool is_known = std::isfinite(value) && most > least;
+    colors.push_back(Rainbow(is_known ? (value - least) / (most - least) : 0));
+  }
+  return colors;
+}
+
+Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style) {
+  Marker marker = MarkerOf(header, 0, Marker::POINTS, In(style, Color(255, 255, 255)));
+  marker.scale.x = marker.scale.y = marker.scale.z = style.size_m.value_or(kPointSize);
+  return marker;
+}
+
+// What each point has, unless all have one colour.
+void Colour(Marker& points, std::vector<std_msgs::ColorRGBA> colors, const ShownStyle& style) {
+  if (style.color) return;
+  for (std_msgs::ColorRGBA& color : colors) color = In(style, color);
+  points.colors = std::move(colors);
+}
+
+std::size_t StepOf(std::uint64_t points) {
+  return static_cast<std::size_t>((points + kMostCloudPoints - 1) / kMostCloudPoints);
+}
+
+// A number in a point of a cloud.
+class CloudField {
+ public:
+  // nullopt: there is none of that name, or it is not within a point.
+  static std::optional<CloudField> Find(const sensor_msgs::PointCloud2& cloud,
+                                        std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      for (const sensor_msgs::PointField& field : cloud.fields) {
+        const std::size_t size = SizeOf(field.datatype);
+        if (field.name != name || size == 0 || field.count == 0) continue;
+        if (std::uint64_t{field.offset} + size > cloud.point_step) continue;
+        return CloudField(field);
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool is_float() const { return type_ == sensor_msgs::PointField::FLOAT32; }
+  std::size_t size() const { return SizeOf(type_); }
+
+  double Number(const std::uint8_t* point) const {
+    const std::uint8_t* const at = point + offset_;
+    switch (type_) {
+      case sensor_msgs::PointField::INT8: return Read<std::int8_t>(at);
+      case sensor_msgs::PointField::UINT8: return Read<std::uint8_t>(at);
+      case sensor_msgs::PointField::INT16: return Read<std::int16_t>(at);
+      case sensor_msgs::PointField::UINT16: return Read<std::uint16_t>(at);
+      case sensor_msgs::PointField::INT32: return Read<std::int32_t>(at);
+      case sensor_msgs::PointField::UINT32: return Read<std::uint32_t>(at);
+      case sensor_msgs::PointField::FLOAT32: return static_cast<double>(Read<float>(at));
+      default: return Read<double>(at);
+    }
+  }
+  // Of four bytes: 0xAARRGGBB.
+  std_msgs::ColorRGBA Packed(const std::uint8_t* point) const {
+    const auto bits = Read<std::uint32_t>(point + offset_);
+    return Color(static_cast<int>(bits >> 16 & 255), static_cast<int>(bits >> 8 & 255),
+                 static_cast<int>(bits & 255));
+  }
+
+ private:
+  explicit CloudField(const sensor_msgs::PointField& field)
+      : offset_(field.offset), type_(field.datatype) {}
+
+  template <class T>
+  static T Read(const std::uint8_t* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+  }
+  static std::size_t SizeOf(std::uint8_t type) {
+    constexpr std::size_t kSizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+    return type < std::size(kSizes) ? kSizes[type] : 0;
+  }
+
+  std::size_t offset_;
+  std::uint8_t type_;
+};
+
+// Why it cannot be read, or null.
+const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
+  if (cloud.is_bigendian != 0) return "its numbers are big-endian";
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
+  if (row > cloud.row_step || std::uint64_t{cloud.row_step} * cloud.height > cloud.data.size()) {
+    return "it states more points than it has";
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style) {
+  Marker points = PointsOf(message.header, style);
+  const bool has_intensities = message.intensities.size() == message.ranges.size();
+  const std::size_t step = StepOf(message.ranges.size());
+  std::vector<double> intensities;
+  for (std::size_t i = 0; i < message.ranges.size(); i += step) {
+    const float range = message.ranges[i];
+    if (!(range >= message.range_min && range <= message.range_max)) continue;
+    const double angle = static_cast<double>(message.angle_min) +
+                         static_cast<double>(i) * static_cast<double>(message.angle_increment);
+    const auto metres = static_cast<double>(range);
+    points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
+    if (has_intensities) intensities.push_back(static_cast<double>(message.intensities[i]));
+  }
+  Colour(points, RainbowOf(intensities), style);
+  return OneOrNone(std::move(points));
+}
+
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const ShownStyle& style) {
+  const auto refuse = [](const std::string& why) {
+    return tl::unexpected(Refusal{"cannot be drawn", "a point cloud: " + why});
+  };
+  if (const char* const defect = DefectOf(message)) return refuse(defect);
+  const auto x = CloudField::Find(message, {"x"}), y = CloudField::Find(message, {"y"}),
+             z = CloudField::Find(message, {"z"});
+  if (!x || !y || !z || !x->is_float() || !y->is_float() || !z->is_float()) {
+    return refuse("no fields x, y and z of type FLOAT32");
+  }
+  const auto packed = CloudField::Find(message, {"rgb", "rgba"});
+  const bool has_colors = packed && packed->size() == 4;
+  const auto intensity =
+      has_colors ? std::nullopt : CloudField::Find(message, {"intensity", "intensities"});
+  Marker points = PointsOf(message.header, style);
+  std::vector<double> intensities;
+  std::vector<std_msgs::ColorRGBA> colors;
+  const std::uint64_t count = std::uint64_t{message.width} * message.height;
+  const std::size_t step = StepOf(count);
+  for (std::uint64_t i = 0; i < count; i += step) {
+    const std::uint8_t* const point = message.data.data() + i / message.width * message.row_step +
+                                      i % message.width * message.point_step;
+    const geometry_msgs::Point place =
+        PointAt(x->Number(point), y->Number(point), z->Number(point));
+    if (!std::isfinite(place.x + place.y + place.z)) continue;  // depth cameras send many
+    points.points.push_back(place);
+    if (has_colors) colors.push_back(packed->Packed(point));
+    if (intensity) intensities.push_back(intensity->Number(point));
+  }
+  Colour(points, has_colors ? std::move(colors) : RainbowOf(intensities), style);
+  return OneOrNone(std::move(points));
+}
+
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style) {
+  Marker points = PointsOf(message.header, style);
+  const auto channel =
+      std::find_if(message.channels.begin(), message.channels.end(), [&](const auto& each) {
+        return (each.name == "intensity" || each.name == "intensities") &&
+               each.values.size() == message.points.size();
+      });
+  std::vector<double> intensities;
+  for (std::size_t i = 0; i < message.points.size(); i += StepOf(message.points.size())) {
+    const geometry_msgs::Point32& point = message.points[i];
+    const geometry_msgs::Point place = PointAt(
+        static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));
+    if (!std::isfinite(place.x + place.y + place.z)) continue;
+    points.points.push_back(place);
+    if (channel != message.channels.end()) {
+      intensities.push_back(static_cast<double>(channel->values[i]));
+    }
+  }
+  Colour(points, RainbowOf(intensities), style);
+  return OneOrNone(std::move(points));
+}
+
+}  // namespace kinescope::ros_bridge

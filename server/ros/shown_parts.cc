@@ -1,0 +1,68 @@
+#include "server/ros/shown_parts.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <utility>
+
+namespace kinescope::ros_bridge {
+
+using visualization_msgs::Marker;
+
+std_msgs::ColorRGBA Color(int red, int green, int blue) {
+  std_msgs::ColorRGBA color;
+  color.r = static_cast<float>(red) / 255;
+  color.g = static_cast<float>(green) / 255;
+  color.b = static_cast<float>(blue) / 255;
+  color.a = 1;
+  return color;
+}
+
+std_msgs::ColorRGBA In(const ShownStyle& style, std_msgs::ColorRGBA color) {
+  if (style.color) {
+    color.r = static_cast<float>((*style.color)[0]);
+    color.g = static_cast<float>((*style.color)[1]);
+    color.b = static_cast<float>((*style.color)[2]);
+  }
+  if (style.alpha) color.a = static_cast<float>(*style.alpha);
+  return color;
+}
+
+Marker MarkerOf(const std_msgs::Header& header, int id, int type,
+                const std_msgs::ColorRGBA& color) {
+  Marker marker;
+  marker.header = header;
+  marker.id = id;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1;
+  marker.color = color;
+  return marker;
+}
+
+Marker Without(const std_msgs::Header& header, int id) {
+  Marker marker;
+  marker.header = header;
+  marker.id = id;
+  marker.action = Marker::DELETE;
+  return marker;
+}
+
+geometry_msgs::Point PointAt(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+tl::unexpected<Refusal> TooLarge(const char* what, std::size_t count, std::size_t most) {
+  return tl::unexpected(
+      Refusal{"too large", fmt::format("{} {}: expected at most {}", count, what, most)});
+}
+
+ShownMarkers OneOrNone(Marker marker) {
+  if (marker.points.empty()) return {Without(marker.header, marker.id)};
+  return {std::move(marker)};
+}
+
+}  // namespace kinescope::ros_bridge
