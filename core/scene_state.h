@@ -16,6 +16,7 @@
 
 #include "core/body_forces.h"
 #include "core/body_sample.h"
+#include "core/camera_image.h"
 #include "core/load_class.h"
 #include "core/mesh_files.h"
 #include "core/robot_state.h"
@@ -179,6 +180,8 @@ struct SceneState {
   /// External markers. Shared, so that unchanged markers cost nothing; a changed marker is a new
   /// object. Never null. A marker with a defect is reported and not rendered.
   std::vector<std::shared_ptr<const SceneMarker>> markers;
+  /// Pictures of cameras, beside the scene. None in former states.
+  ImageList images;
 };
 
 }  // namespace kinescope

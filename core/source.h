@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/body_sample.h"
+#include "core/camera_image.h"
 #include "core/duration_histogram.h"
 #include "core/node_clock.h"
 #include "core/playback.h"
@@ -51,6 +52,7 @@ struct SourceCounters {
 struct RecordedSurroundings {
   MarkerList markers;
   RobotList robots;
+  ImageList images;
 };
 
 class SampleSink {

@@ -105,6 +105,25 @@ void Canvas::RoundedBox(double x, double y, double width, double height, double 
   Fill(x, y, x + width, y + height, ink, coverage, whole);
 }
 
+void Canvas::Picture(int x, int y, const Image& pixels) {
+  const int first_x = std::max(0, x), last_x = std::min(part_.width, x + pixels.width);
+  const int first_y = std::max(0, y), last_y = std::min(part_.height, y + pixels.height);
+  if (first_x >= last_x || first_y >= last_y) return;
+  Mark(first_x, first_y, last_x - first_x, last_y - first_y);
+  const auto at = [](const Image& image, int column, int row) {
+    return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                static_cast<std::size_t>(column));
+  };
+  const auto row_bytes = static_cast<std::ptrdiff_t>(4 * (last_x - first_x));
+  for (int row = first_y; row < last_y; ++row) {
+    const auto from =
+        pixels.rgba.begin() + static_cast<std::ptrdiff_t>(at(pixels, first_x - x, row - y));
+    std::copy(from, from + row_bytes,
+              image_.rgba.begin() +
+                  static_cast<std::ptrdiff_t>(at(image_, part_.x + first_x, part_.y + row)));
+  }
+}
+
 void Canvas::Disc(double x, double y, double radius, const Ink& ink) {
   Fill(x - radius, y - radius, x + radius, y + radius, ink,
        [&](double px, double py) { return EdgeCoverage(radius - std::hypot(px - x, py - y)); });

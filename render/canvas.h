@@ -24,6 +24,7 @@ class Canvas : public Painter {
   void Ring(double x, double y, double inner_radius, double outer_radius, const Ink& ink) override;
   void Polyline(const std::vector<std::pair<double, double>>& points, double width,
                 const Ink& ink) override;
+  void Picture(int x, int y, const Image& pixels) override;
   double Text(double x, double y, std::string_view utf8, Font& font, int size_px,
               const Ink& ink) override;
 

@@ -180,6 +180,7 @@ void LegendContent::Add(const LegendContent& other) {
   for (const LegendRow& row : other.rows) {
     if (!HasRow(rows, row)) rows.push_back(row);
   }
+  if (images.size() < other.images.size()) images = other.images;
   for (const std::string& note : other.notes) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
@@ -193,6 +194,7 @@ LegendRow GroundReactionRow() {
 
 LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
   LegendContent content;
+  for (const auto& image : state.images) content.images.push_back(ProportionsOf(*image));
   if (HasOnlyRobots(state)) return content;
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);

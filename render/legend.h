@@ -42,6 +42,8 @@ struct LegendContent {
   std::string title;               // kLegendTitle or kSymbolsTitle; "" without rows
   std::vector<LegendRow> rows;     // from top to bottom
   std::vector<std::string> notes;  // below them, fainter: load metric, assumed body mass
+  /// Not listed, but beside the scene as it is: width by height of each picture of a camera.
+  std::vector<double> images = {};
 
   bool is_empty() const { return rows.empty(); }
   bool has_classes() const { return title == kLegendTitle; }

@@ -114,6 +114,10 @@ void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& 
 void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec,
                           const Backdrop& backdrop) {
   const OverlayParts& parts = spec.parts;
+  if (parts.images && !state.images.empty()) {
+    page.canvas.Begin("images");
+    images_.Paint(page, state);
+  }
   if (HasOnlyRobots(state)) return;
   if (!page.is_small) {
     if (parts.legend && !spec.scene) {

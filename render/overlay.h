@@ -1,7 +1,7 @@
 /// Paints the overlays of a picture: title, status indicator, legend, time code, banners, names,
-/// scale bar, plot and frame code. Sizes are in proportion to the picture's height, so that a clip
-/// looks the same at any size; text is never smaller than readable. An Overlay belongs to one
-/// thread.
+/// scale bar, plot, pictures of cameras and frame code. Sizes are in proportion to the picture's
+/// height, so that a clip looks the same at any size; text is never smaller than readable. An
+/// Overlay belongs to one thread.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "render/camera/camera.h"
 #include "render/label_layout.h"
 #include "render/module.h"
+#include "render/overlay_images.h"
 #include "render/overlay_page.h"
 #include "render/painter.h"
 #include "render/renderer.h"
@@ -60,6 +61,7 @@ class Overlay {
   void PaintMarkerText(Page& page, const Label& label, const Projected& at);
 
   std::unique_ptr<OverlayFonts> fonts_;
+  OverlayImages images_;
 };
 
 /// "hh:mm:ss.mmm"; negative times start with "-".

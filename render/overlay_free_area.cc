@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/overlay_images.h"
 #include "render/overlay_legend.h"
 #include "render/overlay_page.h"
 #include "render/overlay_plot.h"
@@ -37,6 +38,11 @@ std::vector<Covered> CoveredBy(const PictureSpec& spec, std::size_t curves,
     const double height = sizes.Px(kTimeCodeLine) + 1.3 * sizes.FontPx(kTitleSize);
     covered.push_back({sizes.right() - width - margin, sizes.bottom - margin - height, sizes.width,
                        sizes.height});
+  }
+  if (spec.parts.images) {
+    for (const ImagePlace& place : PlacesOfImages(sizes, legend.images)) {
+      covered.push_back({place.left - margin, place.top - margin, sizes.width, sizes.height});
+    }
   }
   if (spec.parts.plot && curves > 0) {
     const PlotRoom room = RoomOfPlot(sizes, curves);

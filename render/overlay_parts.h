@@ -18,6 +18,7 @@ struct OverlayParts {
   bool frame_code = false;  // machine-readable: sample and time (frame_code.h)
   bool plot = false;        // PictureSpec::load_curves
   bool marks = true;        // PictureSpec::marks
+  bool images = true;       // SceneState::images
 };
 
 struct OverlayInfo {
@@ -25,7 +26,7 @@ struct OverlayInfo {
   bool OverlayParts::*part;
 };
 
-inline constexpr std::array<OverlayInfo, 10> kOverlays = {{
+inline constexpr std::array<OverlayInfo, 11> kOverlays = {{
     {"title", &OverlayParts::title},
     {"status", &OverlayParts::status},
     {"legend", &OverlayParts::legend},
@@ -36,6 +37,7 @@ inline constexpr std::array<OverlayInfo, 10> kOverlays = {{
     {"frame_code", &OverlayParts::frame_code},
     {"plot", &OverlayParts::plot},
     {"marks", &OverlayParts::marks},
+    {"images", &OverlayParts::images},
 }};
 
 }  // namespace kinescope::render

@@ -9,6 +9,7 @@
 
 #include "core/palette.h"
 #include "render/font.h"
+#include "render/image/image.h"
 #include "render/image/tile.h"
 
 namespace kinescope::render {
@@ -37,6 +38,9 @@ class Painter {
   /// Joined by straight lines with round corners and ends.
   virtual void Polyline(const std::vector<std::pair<double, double>>& points, double width,
                         const Ink& ink) = 0;
+  /// Pixels as they are, opaque, their upper left corner at x, y; nothing unless painted as pixels
+  /// or into a file.
+  virtual void Picture(int /*x*/, int /*y*/, const Image& /*pixels*/) {}
   /// One line of text, starting at `x` on the baseline `y`. Returns the x where the next character
   /// would start.
   virtual double Text(double x, double y, std::string_view utf8, Font& font, int size_px,

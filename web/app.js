@@ -4,6 +4,7 @@ import { AlarmPanel } from './alarm_panel.js';
 import { Alarms } from './alarms.js';
 import { Announcer } from './announcer.js';
 import { CameraBar } from './camera_bar.js';
+import { CameraImages } from './camera_images.js';
 import { Charts } from './charts.js';
 import { ChosenPerson } from './chosen_person.js';
 import { KinescopeClient } from './client.js';
@@ -106,6 +107,7 @@ const connection = new KinescopeClient({  // without onState: of the states betw
     loadCameras();
   },
 });
+const cameraImages = new CameraImages(elements['camera-images']);
 const picture = new PicturePanel({
   image: elements['picture-image'], note: elements['picture-note'], on: elements['picture-on'],
   camera: elements['picture-camera'], save: elements['save-picture'],
@@ -174,7 +176,7 @@ loadDiagnostics();
 
 function makeScene() {
   try {
-    return new Scene(elements.view, [elements.cameras, elements.points, elements['loads-shown'], elements.banner],
+    return new Scene(elements.view, [elements.cameras, elements.points, elements['loads-shown'], elements['camera-images'], elements.banner],
       { onOrbit: () => cameras.mark('') });
   } catch {
     const note = document.createElement('p');
@@ -455,6 +457,7 @@ function showReadings() {
   alarms.setConnected(status.level !== 'disconnected', now, shown.newest?.madeMicros ?? 0);
   alarmPanel.update(now);
   scene?.updateSurroundings(shown.details.surroundings, now);
+  cameraImages.update(shown.details.images, now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

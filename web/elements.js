@@ -8,7 +8,7 @@ export const ELEMENTS = /** @type {const} */ ({
   'about': 'p', 'tools': 'div', 'more': 'section', 'dark': 'button', 'copy-link': 'button', 'show-keys': 'button', 'announcer': 'p',
   'key-map': 'dialog', 'key-list': 'div', 'character-keys': 'input', 'close-keys': 'button',
   'stage': 'section', 'head-names': 'div', 'people': 'div', 'class-shape': 'template',
-  'view': 'div', 'cameras': 'div', 'loads-shown': 'select', 'points': 'dl',
+  'view': 'div', 'cameras': 'div', 'loads-shown': 'select', 'points': 'dl', 'camera-images': 'div',
   'com': 'dd', 'cop': 'dd', 'support': 'dd', 'compression-row': 'div', 'compression': 'dd',
   'picture': 'section', 'picture-frame': 'div',
   'picture-image': 'img', 'picture-note': 'p', 'picture-on': 'input', 'picture-camera': 'select',

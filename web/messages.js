@@ -100,19 +100,22 @@ const readPersonDetails = object({
   })),
 });
 const readObjectName = object({ character: number, number, name: string });
+const readCameraImage = object({ name: string, is_old: boolean });
 const readLeftOut = object({ character: number, name: string, reason: string });
 const readRecording = object({
   start_micros: number, length_secs: numberOrNull, round_secs: numberOrNull, ended_micros: numberOrNull,
 });
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
-  objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
+  objects: listOf(readObjectName), left_out: listOf(readLeftOut), images: listOf(readCameraImage),
+  recording: orNull(readRecording),
   marks_revision: numberOrNull, surroundings: numberOrNull, class_limits: numbers(2), class_falls_below: numbers(2),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
  *  @typedef {ReturnType<typeof readPersonDetails>} PersonDetails
  *  @typedef {ReturnType<typeof readObjectName>} ObjectName
+ *  @typedef {ReturnType<typeof readCameraImage>} CameraImage  of another node; old: no new one comes
  *  @typedef {ReturnType<typeof readLeftOut>} LeftOut  a person who is not shown, and why
  *  @typedef {ReturnType<typeof readRecording>} Recording  that is played: the stamp of its first sample; its length and
  *    the time after which it begins anew, null: not known, or not repeated; the moment of its last sample, null: it plays

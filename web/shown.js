@@ -29,7 +29,7 @@ export class Shown {
   time = new ViewerTime();
   /** @type {State|null} */ #newest = null;
   /** @type {Details} */ #newestDetails = {
-    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
+    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], images: [], recording: null,
     marks_revision: null, surroundings: null, class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55],
   };
   #newestAt = 0;  // browser's clock, ms

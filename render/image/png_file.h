@@ -1,4 +1,4 @@
-/// Writes PNG and JPEG from an Image (libpng, libjpeg-turbo), and reads PNG. Pure functions apart
+/// Writes PNG and JPEG from an Image, and reads both (libpng, libjpeg-turbo). Pure functions apart
 /// from files, any thread.
 #pragma once
 
@@ -31,5 +31,10 @@ std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path
 
 /// Baseline JPEG, 4:2:0. quality 1..100.
 std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
+
+/// Of untrusted bytes. A larger picture is read at a half, a quarter or an eighth of its size, as
+/// long as it stays larger than `enough_px` one way. Opaque.
+/// @throws std::runtime_error with the reason: no JPEG, damaged, or more than 16,384 px a side
+Image ReadJpeg(const std::uint8_t* bytes, std::size_t size, int enough_px);
 
 }  // namespace kinescope::render

@@ -32,7 +32,7 @@ std::uint32_t CairoPixel(const std::uint8_t* rgba) {
   return alpha << 24 | multiplied(rgba[0]) << 16 | multiplied(rgba[1]) << 8 | multiplied(rgba[2]);
 }
 
-void PaintBelow(cairo_t* context, const Image& image) {
+void PaintPixels(cairo_t* context, int x, int y, const Image& image) {
   cairo_surface_t* surface =
       cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);
   unsigned char* const to = cairo_image_surface_get_data(surface);
@@ -46,7 +46,7 @@ void PaintBelow(cairo_t* context, const Image& image) {
     }
     cairo_surface_mark_dirty(surface);
   }
-  cairo_set_source_surface(context, surface, 0, 0);  // the context keeps an error of the surface
+  cairo_set_source_surface(context, surface, x, y);  // the context keeps an error of the surface
   cairo_paint(context);
   cairo_surface_destroy(surface);
 }
@@ -73,7 +73,7 @@ class CairoLayer : public LayerPainter {
     }
     context_ = cairo_create(surface_);
     if (units_per_px != 1) cairo_scale(context_, units_per_px, units_per_px);
-    if (below != nullptr) PaintBelow(context_, *below);
+    if (below != nullptr) PaintPixels(context_, 0, 0, *below);
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -138,6 +138,8 @@ class CairoLayer : public LayerPainter {
     for (const auto& [x, y] : points) cairo_line_to(context_, x, y);
     cairo_stroke(context_);
   }
+
+  void Picture(int x, int y, const Image& pixels) override { PaintPixels(context_, x, y, pixels); }
 
   // Advances are those of `font`, by which the page was laid out.
   double Text(double x, double y, std::string_view utf8, Font& font, int size_px,

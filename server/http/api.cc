@@ -415,6 +415,14 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     left_out.push_back(
         {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
   }
+  json images = json::array();
+  constexpr std::int64_t kOldNanos = 1'500'000'000;
+  for (std::size_t i = 0; state != nullptr && i < state->images.size(); ++i) {
+    const CameraImage& image = *state->images[i];
+    const bool is_old =
+        image.received_nanos != 0 && state->made_nanos - image.received_nanos > kOldNanos;
+    images.push_back({{"name", image.name}, {"is_old", is_old}});
+  }
   // Those of a former moment are not known.
   const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;
   return Text({{"details",
@@ -426,6 +434,7 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                  {"people", std::move(people)},
                  {"objects", std::move(objects)},
                  {"left_out", std::move(left_out)},
+                 {"images", std::move(images)},
                  {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
                  {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
                  {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});

@@ -25,6 +25,7 @@ constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
 constexpr char kSnapshotPath[] = "/api/v1/snapshot.png";
 constexpr char kFilePath[] = "/api/v1/file/{name}";
+constexpr char kImagePath[] = "/api/v1/image/{number}";
 constexpr char kMeshPath[] = "/api/v1/mesh/{person}/{revision}/{number}";
 constexpr char kSkinPath[] = "/api/v1/skin/{person}/{revision}";
 constexpr int kMostSkinError = 10;  // mm: with more, people lose their hands
@@ -242,7 +243,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, one in docs/http.md, and its description in docs/openapi.json.
-const std::array<Router::ApiRoute, 25> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 26> Router::kApiRoutes = {{
     {"/api/v1/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/v1/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/v1/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -265,6 +266,7 @@ const std::array<Router::ApiRoute, 25> Router::kApiRoutes = {{
     {kMeshPath, Method::kGet, Role::kViewer, &Router::Mesh},
     {kSkinPath, Method::kGet, Role::kViewer, &Router::Skin},
     {"/api/v1/surroundings.glb", Method::kGet, Role::kViewer, &Router::Surroundings},
+    {kImagePath, Method::kGet, Role::kViewer, &Router::CameraPicture},
     {kSnapshotPath, Method::kGet, Role::kViewer, &Router::Snapshot},
     {kWebSocketPath, Method::kGet, Role::kViewer, &Router::AskForUpgrade},
     {"/api/v1/openapi.json", Method::kGet, Role::kViewer, &Router::OpenApi},
@@ -476,6 +478,19 @@ Answer Router::Surroundings(const Request& request, Role /*role*/) const {
     return ErrorAnswer(404, "nothing is beside the people: no external markers, and no robots");
   }
   return AnswerOfModel(surroundings->glb, "model/gltf-binary", request);
+}
+
+Answer Router::CameraPicture(const Request& request, Role /*role*/) const {
+  const auto numbers = NumbersOf<1>(ParseTarget(request.target)->path, kImagePath);
+  if (!numbers) return Refuse(404, "unknown address", std::string("expected ") + kImagePath);
+  const std::shared_ptr<const SceneState> state = site_.states->Get();
+  const std::size_t number = (*numbers)[0];
+  if (state == nullptr || number >= state->images.size() || !site_.camera_image) {
+    return ErrorAnswer(404, "no camera has sent this picture");
+  }
+  const auto file = site_.camera_image(number, state->images[number]);
+  if (file == nullptr) return ErrorAnswer(404, "the picture of this camera cannot be read");
+  return AnswerOfModel(*file, "image/jpeg", request);
 }
 
 Answer Router::Snapshot(const Request& request, Role /*role*/) const {

@@ -136,6 +136,11 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// The newest that is made; null: none yet. Called on the server's thread. May be null.
   std::function<std::shared_ptr<const Surroundings>()> surroundings;
+  /// A picture of a camera as JPEG; null: it cannot be read. Called on the server's thread, must
+  /// return at once. May be null. @param number  of the image in SceneState::images
+  std::function<std::shared_ptr<const std::string>(std::size_t number,
+                                                   const std::shared_ptr<const CameraImage>& image)>
+      camera_image;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
   /// What operators do; borrowed. Null: the page has no controls.

@@ -13,7 +13,7 @@ render::ViewShape PictureShapes::Of(const render::PictureSpec& spec, const Scene
   const auto known = std::find_if(measured_.begin(), measured_.end(), [&](const Measured& each) {
     return each.width == spec.width && each.height == spec.height &&
            each.has_overlays == spec.overlays && each.legend.rows == legend.rows &&
-           each.legend.notes == legend.notes;
+           each.legend.notes == legend.notes && each.legend.images == legend.images;
   });
   if (known != measured_.end()) return known->shape;
   if (measured_.size() == kMost) measured_.erase(measured_.begin());

@@ -131,6 +131,8 @@ class RvizReader {
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
       ReadTopic(display, called, "Marker Topic", "");
+    } else if (kind == "rviz/Image") {
+      ReadTopic(display, called, "Image Topic", "");
     } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/TF") {
@@ -174,7 +176,13 @@ class RvizReader {
   void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,
                  const std::string& style) {
     const bool is_marker = std::string_view(member) == "Marker Topic";
-    const std::string name = TextOf(display, member, "");
+    std::string name = TextOf(display, member, "");
+    const std::string transport = TextOf(display, "Transport Hint", "raw");
+    if (transport == "compressed" && !name.empty()) {
+      name += "/compressed";
+    } else if (transport != "raw") {
+      Remark(display, called + ": Transport Hint " + Quoted(transport) + " is read as 'raw'");
+    }
     if (IsTopicName(name)) {
       picture_.topics.push_back({name, style, Shown(called), is_marker, LineOf(display)});
     } else if (!is_marker) {

@@ -111,6 +111,7 @@ class InWallTime : public InputSink {
     sink_.OnMeasurements(character, in_wall_time);
   }
   void OnMarkers(const MarkerList& markers) override { sink_.OnMarkers(markers); }
+  void OnImages(const ImageList& images) override { sink_.OnImages(images); }
   void OnRobots(const RobotList& robots) override { sink_.OnRobots(robots); }
   void OnMark(const std::string& text) override { sink_.OnMark(text); }
   void OnViewListeners(int count) override { sink_.OnViewListeners(count); }

@@ -172,6 +172,8 @@ class InputSink {
   virtual void OnMeasurements(int character, const Measurements& measured) = 0;
   /// All current external markers, in the world frame; called when the list has changed.
   virtual void OnMarkers(const MarkerList& /*markers*/) {}
+  /// The newest pictures of cameras; called when one has come.
+  virtual void OnImages(const ImageList& /*images*/) {}
   /// All robots that the graph moves, in the world frame; called when one has moved.
   virtual void OnRobots(const RobotList& /*robots*/) {}
   /// A text on `~mark`: what the newest sample is to be marked with.

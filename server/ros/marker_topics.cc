@@ -8,6 +8,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 
 namespace kinescope::ros_bridge {
@@ -67,13 +68,29 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     for (const auto& marker : array_.markers) Take(topic, marker, monotonic_nanos);
     return;
   }
+  if (IsImageType(sum)) {
+    const auto message = event.getConstMessage();  // which lives as long as its pixels are shown
+    std::shared_ptr<const std::vector<std::uint8_t>> bytes(&message->bytes,
+                                                           [message](const void*) {});
+    return TakeImage(topic, ReadImage(sum, std::move(bytes)), monotonic_nanos);
+  }
   if (const ToMarkersOfBytes to_markers = FindShownMessage(sum)) {
     return TakeShown(topic, to_markers(raw.bytes, topics_[topic].style), monotonic_nanos);
   }
-  Refuse(topic, {"another type",
-                 fmt::format("message type {}: expected visualization_msgs/Marker, "
-                             "visualization_msgs/MarkerArray, {}",
-                             said("type").substr(0, kLongestMarkerType), NamesOfShownMessages())});
+  Refuse(topic,
+         {"another type",
+          fmt::format("message type {}: expected visualization_msgs/Marker, "
+                      "visualization_msgs/MarkerArray, sensor_msgs/Image, CompressedImage, {}",
+                      said("type").substr(0, kLongestMarkerType), NamesOfShownMessages())});
+}
+
+void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
+                            std::int64_t monotonic_nanos) {
+  if (!image) return Refuse(topic, image.error());
+  image->name = NameOfCamera(topics_[topic].name);
+  image->received_nanos = monotonic_nanos;
+  if (const auto refusal = images_.Put(topic, *std::move(image))) return Refuse(topic, *refusal);
+  CountUsed(topic);
 }
 
 void MarkerInbox::TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
@@ -138,6 +155,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
         return Find(frame, stamp_nanos);
       });
   if (changed) sink.OnMarkers(store_.markers());
+  if (images_.TakeChanged()) sink.OnImages(images_.images());
   for (const MarkerStore::Lost& lost : store_.TakeLost()) {
     const std::lock_guard<std::mutex> lock(mutex_);
     InputCounters& counters = counters_[topics_[lost.topic].name];

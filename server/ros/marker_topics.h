@@ -1,6 +1,7 @@
 /// Subscribes to the topics of external markers, counts their messages and passes the resulting
 /// markers on: of visualization_msgs/Marker and MarkerArray, and of messages that are shown as
-/// markers (shown_messages.h). The type is the one that each connection states.
+/// markers (shown_messages.h); and pictures of cameras. The type is the one that each connection
+/// states.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -20,6 +21,7 @@
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
@@ -40,7 +42,7 @@ class MarkerInbox {
   void OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos);
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
-  /// Passes on the markers if they have changed.
+  /// Passes on the markers and the pictures if they have changed.
   void Deliver(std::int64_t monotonic_nanos, InputSink& sink);
 
   /// By topic. Any thread.
@@ -54,6 +56,7 @@ class MarkerInbox {
 
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
+  void TakeImage(std::size_t topic, Taken<CameraImage> image, std::int64_t monotonic_nanos);
   void TakeShown(std::size_t topic, Taken<ShownMarkers> markers, std::int64_t monotonic_nanos);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
@@ -65,6 +68,7 @@ class MarkerInbox {
 
   // Used by the thread that reads samples only.
   MarkerStore store_;
+  ImageBox images_;
   std::map<int, Body> bodies_;             // by character
   visualization_msgs::Marker marker_;      // reused, keeps its memory
   visualization_msgs::MarkerArray array_;  // reused, keeps its memory

@@ -280,9 +280,21 @@ void SceneBuilder::SetMarkers(MarkerList markers) {
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 
+void SceneBuilder::SetImages(ImageList images) {
+  node_images_ = std::move(images);
+  PlaceImages();
+}
+
+void SceneBuilder::PlaceImages() {
+  current_.images = recorded_.images;
+  current_.images.insert(current_.images.end(), node_images_.begin(), node_images_.end());
+  current_.images.resize(std::min(current_.images.size(), kMostImages));
+}
+
 void SceneBuilder::OnSurroundings(const RecordedSurroundings& all) {
   const bool has_new_markers = all.markers != recorded_.markers;
   recorded_ = all;
+  PlaceImages();
   if (has_new_markers) PlaceMarkers();
   PlaceRobots();
 }

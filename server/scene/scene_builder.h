@@ -86,6 +86,10 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// once while no samples arrive.
   void SetMarkers(MarkerList markers);
 
+  /// Sets the pictures of cameras of other nodes, beside those of the recording, from the next
+  /// sample on.
+  void SetImages(ImageList images);
+
   /// Sets the robots that other nodes move, in the world frame; as SetMarkers().
   void SetMovingRobots(RobotList robots);
 
@@ -121,6 +125,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
   void PlaceMarkers();
+  void PlaceImages();
   void PlaceRobots();
 
   struct TrackedGroup {
@@ -154,6 +159,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   SceneState current_;  // without its people, which Publish adds
   RecordedSurroundings recorded_;
   MarkerList node_markers_;
+  ImageList node_images_;
   RobotList node_robots_;
   std::vector<RobotState> robots_;  // on z = 0
   double robots_floor_z_ = 0;       // where those of current_ stand

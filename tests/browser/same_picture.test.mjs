@@ -190,6 +190,37 @@ test('markers and a robot of other ROS nodes cover the same pixels on the page a
   stop();
 });
 
+test('a camera of another node is over a corner of the view, says when it is old, and is none of a former moment', async () => {
+  const { env, stop } = await startMaster();
+  const publisher = spawn(process.env.KINESCOPE_MARKER_PUBLISHER, [], { stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, ...env } });
+  endWithTests(publisher);
+  const site = await serve('demo:walk', ['--ros', 'required', '--pictures', 'off', '--marker_topics', '/lab/image_raw'], env);
+  const { page, problems, close } = await openPage(site.url);
+  const image = page.getByRole('img', { name: 'Camera lab/image_raw' });
+  await image.waitFor();
+  await page.waitForFunction(() => document.querySelector('#camera-images img').naturalWidth === 160, null, LONG);
+  const orange = await image.evaluate((shown) => {
+    const canvas = document.createElement('canvas');
+    canvas.width = shown.naturalWidth;
+    canvas.height = shown.naturalHeight;
+    const context = canvas.getContext('2d');
+    context.drawImage(shown, 0, 0);
+    return [...context.getImageData(20, 60, 1, 1).data];
+  });
+  assert.ok(orange[0] > 240 && Math.abs(orange[1] - 120) < 15 && orange[2] < 20, `${orange}`);
+  await page.getByText('No new picture: lab/image_raw').waitFor();  // it was published once
+  await saveScreenshot(page, 'camera_images');
+  await page.getByRole('button', { name: 'One sample back' }).click();
+  await image.waitFor({ state: 'hidden' });
+  await page.getByRole('button', { name: 'Live', exact: true }).click();
+  await image.waitFor();
+  assert.deepEqual(problems, []);
+  await close();
+  await site.stop();
+  publisher.kill();
+  stop();
+});
+
 /** The share of the pixels of `one` that `other` covers, or a pixel beside them: lines are not much wider than that. */
 function found(one, other, leftOut, { width }) {
   const beside = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => dy * width + dx));

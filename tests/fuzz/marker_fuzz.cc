@@ -3,6 +3,8 @@
 // rejected, or have no more in them
 // than their bytes; markers that are accepted can be rendered.
 #include <kinescope/JointLoadArray.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -13,6 +15,8 @@
 #include <vector>
 
 #include "core/system/check.h"
+#include "render/image/camera_picture.h"
+#include "server/ros/image_messages.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
@@ -69,12 +73,22 @@ void CheckShown(const std::vector<std::uint8_t>& bytes) {
   }
 }
 
+template <class Message>
+void CheckImage(const std::vector<std::uint8_t>& bytes) {
+  const auto image = ReadImage(ros::message_traits::md5sum<Message>(),
+                               std::make_shared<const std::vector<std::uint8_t>>(bytes));
+  if (!image) return KINESCOPE_CHECK(!image.error().text.empty());
+  KINESCOPE_CHECK(image->begin + image->size <= bytes.size());
+  const auto pixels = render::DecodeCameraImage(*image, 40, 30);
+  KINESCOPE_CHECK(!pixels || (pixels->width <= 40 && pixels->height <= 30));
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 19) {
+  switch (data[0] % 21) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -101,7 +115,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 15: CheckShown<nav_msgs::Odometry>(bytes); break;
     case 16: CheckShown<nav_msgs::GridCells>(bytes); break;
     case 17: CheckShown<nav_msgs::OccupancyGrid>(bytes); break;
-    default: CheckShown<sensor_msgs::PointCloud>(bytes); break;
+    case 18: CheckShown<sensor_msgs::PointCloud>(bytes); break;
+    case 19: CheckImage<sensor_msgs::Image>(bytes); break;
+    default: CheckImage<sensor_msgs::CompressedImage>(bytes); break;
   }
   return 0;
 }

@@ -62,6 +62,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnHandLoad(int character, const HandLoad& load) override;
   void OnMeasurements(int character, const Measurements& measured) override;
   void OnMarkers(const MarkerList& markers) override { builder_.SetMarkers(markers); }
+  void OnImages(const ImageList& images) override { builder_.SetImages(images); }
   void OnRobots(const RobotList& robots) override { builder_.SetMovingRobots(robots); }
   void OnViewListeners(int count) override;
   void OnMark(const std::string& text) override;

@@ -226,6 +226,9 @@ void Server::StartPage(const ServeConfig& config) {
     return stream ? StreamHealthJson(*stream) : std::string();
   };
   page.surroundings = [this] { return surroundings_made_.Get(); };
+  page.camera_image = [this](std::size_t number, const auto& image) {
+    return camera_files_.Of(number, image);
+  };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });

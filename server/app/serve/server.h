@@ -13,6 +13,7 @@
 #include "core/system/latest.h"
 #include "server/alarms/alarms.h"
 #include "server/alarms/webhook.h"
+#include "server/app/serve/camera_files.h"
 #include "server/app/serve/change_mailbox.h"
 #include "server/app/serve/clip_maker.h"
 #include "server/app/serve/control_desk.h"
@@ -76,11 +77,12 @@ class Server {
   const std::unique_ptr<recording::RawRecorder> recorder_;  // null: no live stream, or no page
   const std::unique_ptr<Source> source_;
   // Between threads:
-  Latest<SceneState> states_;                        // reading thread -> page
-  Latest<SourceCounters> counters_;                  // reading thread -> page
-  Latest<Playback> playback_;                        // reading thread -> page; null: live
-  Latest<StreamHealth> stream_;                      // reading thread -> page
-  Latest<http::Picture> pictures_;                   // drawing thread -> page
+  Latest<SceneState> states_;        // reading thread -> page
+  Latest<SourceCounters> counters_;  // reading thread -> page
+  Latest<Playback> playback_;        // reading thread -> page; null: live
+  Latest<StreamHealth> stream_;      // reading thread -> page
+  Latest<http::Picture> pictures_;   // drawing thread -> page
+  CameraFiles camera_files_;
   Latest<http::Surroundings> surroundings_made_;     // its own thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   ChangeMailbox changes_;                            // page -> reading thread

@@ -5,10 +5,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
@@ -58,13 +60,15 @@ bool BagSurroundings::IsUsed(const BagConnection& connection) const {
     return std::any_of(robots_.begin(), robots_.end(),
                        [&](const Robot& robot) { return robot.joint_states == topic; });
   }
-  return shown_topics_.count(topic) != 0 && FindShownMessage(connection.md5sum) != nullptr;
+  return shown_topics_.count(topic) != 0 &&
+         (IsImageType(connection.md5sum) || FindShownMessage(connection.md5sum) != nullptr);
 }
 
 void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
   if (HasJoints(connection)) return TakeJointStates(message, counters);
   if (IsOne(connection) || IsArray(connection)) return TakeMarkers(message, counters);
+  if (IsImageType(connection.md5sum)) return TakeImage(message, counters);
   TakeShown(message, counters);
 }
 
@@ -131,6 +135,19 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
   }
 }
 
+void BagSurroundings::TakeImage(const BagMessage& message, SourceCounters& counters) {
+  const BagConnection& connection = *message.connection;
+  const auto refuse = [&](const char* kind) { ++counters.rejected[connection.type + ": " + kind]; };
+  if (!IsWhole(message)) return refuse("more than 16 MiB");
+  Taken<CameraImage> image = ReadImage(
+      connection.md5sum, std::make_shared<const std::vector<std::uint8_t>>(message.bytes));
+  if (!image) return refuse(image.error().kind);
+  const auto number = NumberOf(connection.topic, counters);
+  if (!number) return;
+  image->name = NameOfCamera(WithSlash(connection.topic));
+  if (const auto refusal = images_.Put(*number, *std::move(image))) refuse(refusal->kind);
+}
+
 void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters& counters) {
   sensor_msgs::JointState joints;
   if (!IsWhole(message) || !ReadBounded(message.bytes.data(), message.bytes.size(), joints)) {
@@ -172,8 +189,9 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   };
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
-  if (has_moved || has_new_markers) {
-    RecordedSurroundings all{store_.markers(), {}};
+  const bool has_new_images = images_.TakeChanged();
+  if (has_moved || has_new_markers || has_new_images) {
+    RecordedSurroundings all{store_.markers(), {}, images_.images()};
     for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
     sink.OnSurroundings(all);
   }

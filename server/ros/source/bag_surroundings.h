@@ -18,6 +18,7 @@
 
 #include "core/source.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/robot_frames.h"
 #include "server/ros/source/bag_reader.h"
@@ -55,6 +56,7 @@ class BagSurroundings {
   const char* Decode(const BagMessage& message);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
   void TakeShown(const BagMessage& message, SourceCounters& counters);
+  void TakeImage(const BagMessage& message, SourceCounters& counters);
   void TakeJointStates(const BagMessage& message, SourceCounters& counters);
   /// The number of a topic; nullopt, counted: there are too many.
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
@@ -66,6 +68,7 @@ class BagSurroundings {
   std::optional<std::int64_t> placed_nanos_;
   bool has_markers_ = false;
   MarkerStore store_;
+  ImageBox images_;
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;  // their numbers
   std::set<std::string> lost_frames_;          // that were warned of

@@ -34,7 +34,7 @@ test('an invalid message is reported, and the next one is accepted', (t) => {
   holdTimers(t, ['setTimeout']);  // its pings
   const { seen, socket, connection } = open();
   const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [], objects: [], left_out: [],
-    recording: null, marks_revision: null, surroundings: null, class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] };
+    images: [], recording: null, marks_revision: null, surroundings: null, class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] };
   socket.receive(JSON.stringify({ details: { ...details, people: 'many' } }));
   socket.receive('<html>');
   socket.receive('null');

@@ -182,6 +182,22 @@ TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
   EXPECT_EQ(palette["clay"], json(kClayColor));
 }
 
+TEST(Details, HaveTheCamerasAndWhetherTheyStillSend) {
+  SceneState state;
+  const auto told = [&] {
+    return json::parse(DetailsJson(&state, "front", true, {}))["details"]["images"];
+  };
+  EXPECT_EQ(told(), json::array());
+  CameraImage image;
+  image.name = "lab/image_raw";
+  image.received_nanos = 1'000'000'000;
+  state.images = {std::make_shared<const CameraImage>(image)};
+  state.made_nanos = 2'400'000'000;
+  EXPECT_EQ(told(), json::parse(R"([{"name": "lab/image_raw", "is_old": false}])"));
+  state.made_nanos = 2'600'000'000;
+  EXPECT_EQ(told()[0]["is_old"], true);
+}
+
 TEST(Details, HaveTheRevisionOfTheSurroundingsOfTheNewestStateOnly) {
   SceneState state;
   DetailsExtras extras;

@@ -1,10 +1,12 @@
 // Publishes one marker of each type, but for the mesh, on /samples, and says `published` on its
 // standard output when a subscriber is there; a robot's URDF as /arm_description, and where its
-// links are on /tf_static. Until the end of its standard input.
+// links are on /tf_static; a picture on /lab/image_raw. Until the end of its standard input.
 #include <ros/ros.h>
+#include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <cstdint>
 #include <iostream>
 #include <string>
 
@@ -76,12 +78,29 @@ tf2_msgs::TFMessage PlacesOfArm() {
   return message;
 }
 
+// Its left half is orange.
+sensor_msgs::Image Picture() {
+  sensor_msgs::Image image;
+  image.width = 160;
+  image.height = 120;
+  image.encoding = "rgb8";
+  image.step = 3 * image.width;
+  for (std::uint32_t i = 0; i < image.width * image.height; ++i) {
+    const bool is_left = i % image.width < image.width / 2;
+    image.data.insert(image.data.end(), {255, is_left ? std::uint8_t{120} : std::uint8_t{255},
+                                         is_left ? std::uint8_t{0} : std::uint8_t{255}});
+  }
+  return image;
+}
+
 int Main(int argc, char** argv) {
   ros::init(argc, argv, "marker_publisher");
   ros::NodeHandle node;
   node.setParam("/arm_description", kArm);
   const ros::Publisher places = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   places.publish(PlacesOfArm());
+  const ros::Publisher camera = node.advertise<sensor_msgs::Image>("/lab/image_raw", 1, true);
+  camera.publish(Picture());
   visualization_msgs::MarkerArray array;
   for (const SceneMarker& marker : testing::MarkersOfAllTypes("")) {
     if (marker.type != MarkerType::kMesh) array.markers.push_back(ToMessage(marker));

@@ -1,0 +1,66 @@
+#include "core/camera_image.h"
+
+#include <algorithm>
+
+#include "core/system/starts_with.h"
+#include "core/system/utf8.h"
+
+namespace kinescope {
+namespace {
+
+constexpr int kMostSide = 16'384;         // px
+constexpr std::size_t kLongestName = 40;  // bytes of an encoding in a message
+
+}  // namespace
+
+std::optional<PixelFormat> FormatOf(const std::string& encoding) {
+  using Kind = PixelFormat::Kind;
+  if (encoding == "rgb8") return PixelFormat{Kind::kRgb, 3, {0, 1, 2}};
+  if (encoding == "bgr8" || encoding == "8UC3") return PixelFormat{Kind::kRgb, 3, {2, 1, 0}};
+  if (encoding == "rgba8") return PixelFormat{Kind::kRgb, 4, {0, 1, 2}};
+  if (encoding == "bgra8" || encoding == "8UC4") return PixelFormat{Kind::kRgb, 4, {2, 1, 0}};
+  const bool is_bayer = StartsWith(encoding, "bayer_") && encoding.back() == '8';
+  if (encoding == "mono8" || encoding == "8UC1" || is_bayer) return PixelFormat{Kind::kGrey8, 1};
+  if (encoding == "mono16" || encoding == "16UC1") return PixelFormat{Kind::kNumber, 2};
+  if (encoding == "16SC1") return PixelFormat{Kind::kNumber, 2, {}, false, true};
+  if (encoding == "32FC1") return PixelFormat{Kind::kNumber, 4, {}, true};
+  if (encoding == "yuv422") return PixelFormat{Kind::kUyvy, 2};
+  if (encoding == "yuv422_yuy2") return PixelFormat{Kind::kYuyv, 2};
+  return std::nullopt;
+}
+
+std::string FindDefect(const CameraImage& image) {
+  if (image.bytes == nullptr || image.size == 0) return "no pixels";
+  if (image.begin > image.bytes->size() || image.size > image.bytes->size() - image.begin) {
+    return "it states more bytes than it has";
+  }
+  if (image.encoding == "jpeg") return "";
+  const auto format = FormatOf(image.encoding);
+  if (!format) {
+    return "encoding '" + PrintableLine(image.encoding.substr(0, kLongestName)) +
+           "': expected rgb8, bgr8, mono8, mono16, 16UC1, 32FC1, yuv422 or JPEG";
+  }
+  if (image.width <= 0 || image.height <= 0 || image.width > kMostSide ||
+      image.height > kMostSide) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height) +
+           " px: expected 1 to " + std::to_string(kMostSide) + " each";
+  }
+  const bool is_in_pairs =
+      format->kind == PixelFormat::Kind::kUyvy || format->kind == PixelFormat::Kind::kYuyv;
+  const auto columns = static_cast<std::size_t>(image.width) + (is_in_pairs ? image.width % 2 : 0);
+  const std::size_t row = columns * format->bytes;
+  const auto rows = static_cast<std::size_t>(image.height);
+  if (image.row_bytes < row || image.row_bytes > image.size ||
+      (rows - 1) * image.row_bytes + row > image.size) {
+    return "it states more pixels than it has";
+  }
+  return "";
+}
+
+double ProportionsOf(const CameraImage& image) {
+  constexpr double kOfFiles = 4.0 / 3, kMost = 4;
+  if (image.width <= 0 || image.height <= 0) return kOfFiles;
+  return std::clamp(static_cast<double>(image.width) / image.height, 1 / kMost, kMost);
+}
+
+}  // namespace kinescope

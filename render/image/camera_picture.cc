@@ -1,0 +1,162 @@
+#include "render/image/camera_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "render/image/png_file.h"
+
+namespace kinescope::render {
+namespace {
+
+using Rgb8 = std::array<int, 3>;
+
+std::uint8_t Byte(double value) {
+  return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+}
+
+// The pixels of an image that has no defect.
+class Pixels {
+ public:
+  explicit Pixels(const CameraImage& image)
+      : image_(image),
+        format_(*FormatOf(image.encoding)),
+        first_(image.bytes->data() + image.begin) {
+    if (format_.kind == PixelFormat::Kind::kNumber) FindRange();
+  }
+
+  Rgb8 At(int x, int y) const {
+    const std::uint8_t* const row = first_ + static_cast<std::size_t>(y) * image_.row_bytes;
+    const std::uint8_t* const at = row + static_cast<std::size_t>(x) * format_.bytes;
+    switch (format_.kind) {
+      case PixelFormat::Kind::kRgb:
+        return {at[format_.rgb[0]], at[format_.rgb[1]], at[format_.rgb[2]]};
+      case PixelFormat::Kind::kGrey8: return {at[0], at[0], at[0]};
+      case PixelFormat::Kind::kUyvy: return OfYuv(row, x, 1);
+      case PixelFormat::Kind::kYuyv: return OfYuv(row, x, 0);
+      case PixelFormat::Kind::kNumber: break;
+    }
+    const double number = Number(at);
+    if (!std::isfinite(number)) return {0, 0, 0};
+    const double share = most_ > least_ ? (number - least_) / (most_ - least_) : 0;
+    const int grey = Byte(255 * share);
+    return {grey, grey, grey};
+  }
+
+ private:
+  double Number(const std::uint8_t* at) const {
+    std::array<std::uint8_t, 4> bytes = {};
+    std::copy(at, at + format_.bytes, bytes.begin());
+    if (image_.is_bigendian) std::reverse(bytes.begin(), bytes.begin() + format_.bytes);
+    if (format_.is_float) {
+      float value = 0;
+      std::memcpy(&value, bytes.data(), sizeof value);
+      return static_cast<double>(value);
+    }
+    const auto value = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
+    return format_.is_signed ? static_cast<std::int16_t>(value) : value;
+  }
+
+  // Of every 4th pixel each way: enough for a range, and a sixteenth of the time.
+  void FindRange() {
+    constexpr int kStep = 4;
+    least_ = std::numeric_limits<double>::infinity();
+    most_ = -least_;
+    for (int y = 0; y < image_.height; y += kStep) {
+      for (int x = 0; x < image_.width; x += kStep) {
+        const double number = Number(first_ + static_cast<std::size_t>(y) * image_.row_bytes +
+                                     static_cast<std::size_t>(x) * format_.bytes);
+        if (!std::isfinite(number)) continue;
+        least_ = std::min(least_, number);
+        most_ = std::max(most_, number);
+      }
+    }
+  }
+
+  // Two pixels share their colour differences. ITU-R BT.601, full range as cameras send it.
+  Rgb8 OfYuv(const std::uint8_t* row, int x, std::size_t luma) const {
+    const std::uint8_t* const pair = row + 4 * static_cast<std::size_t>(x / 2);
+    const double y = pair[luma + 2 * static_cast<std::size_t>(x % 2)];
+    const double u = pair[1 - luma] - 128.0, v = pair[3 - luma] - 128.0;
+    return {Byte(y + 1.402 * v), Byte(y - 0.344136 * u - 0.714136 * v), Byte(y + 1.772 * u)};
+  }
+
+  const CameraImage& image_;
+  const PixelFormat format_;
+  const std::uint8_t* const first_;
+  double least_ = 0, most_ = 0;  // of kNumber
+};
+
+// As large as it may be.
+Image SizedFor(int width, int height, int most_width, int most_height) {
+  const double share = std::min(
+      {1.0, static_cast<double>(most_width) / width, static_cast<double>(most_height) / height});
+  Image out;
+  SetSize(out, std::max(1, static_cast<int>(std::lround(share * width))),
+          std::max(1, static_cast<int>(std::lround(share * height))));
+  out.is_opaque = true;
+  return out;
+}
+
+// Averages up to 4 x 4 pixels for each one.
+Image Shrunk(const CameraImage& image, int most_width, int most_height) {
+  constexpr int kMostSamples = 4;
+  const Pixels pixels(image);
+  Image out = SizedFor(image.width, image.height, most_width, most_height);
+  const auto begin = [](int at, int from, int to) {
+    return static_cast<int>(std::int64_t{at} * from / to);
+  };
+  std::size_t next = 0;
+  for (int y = 0; y < out.height; ++y) {
+    const int top = begin(y, image.height, out.height);
+    const int rows = std::max(1, begin(y + 1, image.height, out.height) - top);
+    for (int x = 0; x < out.width; ++x) {
+      const int left = begin(x, image.width, out.width);
+      const int columns = std::max(1, begin(x + 1, image.width, out.width) - left);
+      const int across = std::min(columns, kMostSamples), down = std::min(rows, kMostSamples);
+      Rgb8 sum = {};
+      for (int j = 0; j < down; ++j) {
+        for (int i = 0; i < across; ++i) {
+          const Rgb8 one = pixels.At(left + i * columns / across, top + j * rows / down);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += one[k];
+        }
+      }
+      const int count = across * down;
+      for (const int channel : sum) {
+        out.rgba[next++] = static_cast<std::uint8_t>((channel + count / 2) / count);
+      }
+      out.rgba[next++] = 255;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int most_width,
+                                                   int most_height) {
+  const std::string defect = FindDefect(image);
+  if (!defect.empty()) return tl::unexpected(defect);
+  if (image.encoding != "jpeg") return Shrunk(image, most_width, most_height);
+  try {
+    auto pixels = std::make_shared<Image>(
+        ReadJpeg(image.bytes->data() + image.begin, image.size, std::max(most_width, most_height)));
+    CameraImage whole;
+    whole.width = pixels->width;
+    whole.height = pixels->height;
+    whole.encoding = "rgba8";
+    whole.row_bytes = 4 * static_cast<std::size_t>(pixels->width);
+    whole.size = pixels->rgba.size();
+    whole.bytes = std::shared_ptr<const std::vector<std::uint8_t>>(pixels, &pixels->rgba);
+    return Shrunk(whole, most_width, most_height);
+  } catch (const std::runtime_error& error) {
+    return tl::unexpected(std::string(error.what()));
+  }
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,136 @@
+// Pictures of a camera of another node: in the server's picture, on the page, and of a bag in a
+// rendered picture; with a real master.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "render/image/png_file.h"
+#include "tests/server/http/test_client.h"
+#include "tests/system/ros/ros_fixture.h"
+#include "tests/system/run_program.h"
+
+namespace kinescope {
+namespace {
+
+using http::testing::Fetch;
+using ::testing::HasSubstr;
+using testing::RunProgram;
+
+constexpr char kTopic[] = "/lab/image_raw";
+
+sensor_msgs::Image Magenta() {
+  sensor_msgs::Image message;
+  message.width = 160;
+  message.height = 120;
+  message.encoding = "rgb8";
+  message.step = 3 * message.width;
+  message.data.resize(std::size_t{message.step} * message.height);
+  for (std::size_t i = 0; i < message.data.size(); ++i) message.data[i] = i % 3 == 1 ? 0 : 255;
+  return message;
+}
+
+struct Box {
+  int left = 1 << 20, top = 1 << 20, right = -1, bottom = -1, pixels = 0;
+};
+
+// Of what nothing else in a picture looks like.
+Box MagentaIn(const render::Image& image) {
+  Box box;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* const pixel =
+          &image.rgba[4 * static_cast<std::size_t>(y * image.width + x)];
+      if (pixel[0] < 250 || pixel[1] > 5 || pixel[2] < 250) continue;
+      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x),
+             std::max(box.bottom, y), box.pixels + 1};
+    }
+  }
+  return box;
+}
+
+// 4 : 3, above the time code.
+void ExpectAtTheRightEdge(const Box& box) {
+  EXPECT_NEAR(box.right, 1260, 2);
+  EXPECT_GT(box.bottom, 600);
+  EXPECT_LT(box.bottom, 680);
+  EXPECT_NEAR(box.right - box.left + 1, 160, 2) << "not enlarged";
+  EXPECT_NEAR(box.bottom - box.top + 1, 120, 2);
+  EXPECT_GT(box.pixels, 0.7 * 160 * 120) << "but for its name";
+}
+
+class CameraOverRos : public testing::RosProgram {
+ protected:
+  render::Image FileOf(const std::string& name, const std::string& bytes) const {
+    const std::filesystem::path path = folder_ / name;
+    std::ofstream(path, std::ios::binary) << bytes;
+    return render::ReadPng(path);
+  }
+};
+
+TEST_F(CameraOverRos, IsAPictureInThePictureAndOnThePage) {
+  setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);
+  const auto program = Start("serve demo:n_pose --ros required --http_port 0 --marker_topics " +
+                             std::string(kTopic));
+  const std::string url = WaitForLine(*program, "page at ");
+  const int port = std::stoi(url.substr(url.rfind(':') + 1));
+  EXPECT_EQ(Fetch(port, "/api/v1/image/0").status, 404);
+  ros::Publisher camera = node_->advertise<sensor_msgs::Image>(kTopic, 1);
+  ASSERT_TRUE(Spin([&] {
+    camera.publish(Magenta());
+    return Fetch(port, "/api/v1/image/0").status == 200;
+  }));
+  const auto file = Fetch(port, "/api/v1/image/0");
+  const auto pixels = render::ReadJpeg(reinterpret_cast<const std::uint8_t*>(file.body.data()),
+                                       file.body.size(), 1000);
+  EXPECT_EQ(pixels.width, 160);
+  EXPECT_EQ(pixels.height, 120);
+  const auto snapshot = FileOf("live.png", Fetch(port, "/api/v1/snapshot.png").body);
+  ExpectAtTheRightEdge(MagentaIn(snapshot));
+
+  sensor_msgs::Image lying = Magenta();
+  lying.height = 1000;
+  camera.publish(lying);
+  std::string counters;
+  EXPECT_TRUE(Spin([&] {
+    counters = Fetch(port, "/api/v1/diagnostics").json()["ros"]["inputs"][kTopic].dump();
+    return counters.find("states more pixels") != std::string::npos;
+  })) << counters;
+  EXPECT_EQ(Fetch(port, "/api/v1/image/0").status, 200) << "the last good one stays";
+}
+
+TEST_F(CameraOverRos, IsDrawnOfABag) {
+  const std::string path = folder_ / "lab.bag";
+  // A person as the bridge publishes it, which a listener records with its pictures.
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    int samples = 0;
+    Hear<tf2_msgs::TFMessage>("/tf", [&](const tf2_msgs::TFMessage& message) {
+      const ros::Time now = message.transforms.front().header.stamp;
+      bag.write("/tf", now, message);
+      if (samples++ == 10) bag.write(kTopic, now, Magenta());
+    });
+    const auto program = Start("bridge demo:n_pose --ros required");
+    ASSERT_TRUE(Spin([&] { return samples > 60; }));
+  }
+  const std::string program = testing::KinescopePath();
+  const auto draw = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> command = {
+        program, "render", path, "--time", "0.4", "--out", (folder_ / name).string()};
+    command.insert(command.end(), options.begin(), options.end());
+    const auto result = RunProgram(command);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return MagentaIn(render::ReadPng(folder_ / name));
+  };
+  ExpectAtTheRightEdge(draw("with.png", {"--marker_topics", kTopic}));
+  EXPECT_EQ(draw("without.png", {"--marker_topics", kTopic, "--overlay=-images"}).pixels, 0);
+}
+
+}  // namespace
+}  // namespace kinescope

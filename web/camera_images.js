@@ -1,0 +1,67 @@
+// Pictures of cameras of other nodes, over a corner of the 3-D view. Each is asked for again when the last one is shown, a
+// few times a second; one that has not changed is not sent again.
+import { request } from './server_api.js';
+
+const PAUSE_MILLIS = 200;
+
+/** @typedef {import('./messages.js').CameraImage} CameraImage */
+
+export class CameraImages {
+  /** @type {Map<string, {figure: HTMLElement, image: HTMLImageElement, note: HTMLElement, number: number, url: string,
+   *    isAsking: boolean, dueAt: number}>} */
+  #shown = new Map();
+  #host;
+
+  /** @param {HTMLElement} host */
+  constructor(host) {
+    this.#host = host;
+  }
+
+  /** Call it several times a second.
+   *  @param {CameraImage[]} images  of the moment that is shown; former moments have none
+   *  @param {number} now  browser's clock, ms */
+  update(images, now) {
+    const names = new Set(images.map(({ name }) => name));
+    for (const [name, { figure, url }] of this.#shown) {
+      if (names.has(name)) continue;
+      figure.remove();
+      URL.revokeObjectURL(url);
+      this.#shown.delete(name);
+    }
+    images.forEach(({ name, is_old: isOld }, number) => {
+      const one = this.#shown.get(name) ?? this.#add(name);
+      one.number = number;
+      one.figure.dataset.old = String(isOld);
+      one.note.textContent = isOld ? `No new picture: ${name}` : name;
+      if (!one.isAsking && now >= one.dueAt && !document.hidden) this.#load(name);
+    });
+    this.#host.hidden = images.length === 0;
+  }
+
+  /** @param {string} name */
+  #add(name) {
+    const figure = document.createElement('figure'), image = document.createElement('img');
+    const note = document.createElement('figcaption');
+    image.alt = `Camera ${name}`;
+    figure.append(image, note);
+    this.#host.append(figure);
+    const one = { figure, image, note, number: 0, url: '', isAsking: false, dueAt: 0 };
+    this.#shown.set(name, one);
+    return one;
+  }
+
+  /** @param {string} name */
+  async #load(name) {
+    const one = this.#shown.get(name);
+    if (one === undefined) return;
+    one.isAsking = true;
+    // One that does not come is asked for again: the banner says what has become of the server.
+    const picture = await request(`api/v1/image/${one.number}`).then((answer) => answer.blob()).catch(() => null);
+    one.isAsking = false;
+    one.dueAt = performance.now() + PAUSE_MILLIS;
+    if (picture === null || this.#shown.get(name) !== one) return;
+    URL.revokeObjectURL(one.url);
+    one.url = URL.createObjectURL(picture);
+    one.image.src = one.url;
+  }
+}
