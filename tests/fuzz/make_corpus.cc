@@ -449,6 +449,32 @@ class RosBytes {
   std::string bytes_;
 };
 
+// Maps, polygons, cells, pictures of cameras.
+void WriteMaps(const fs::path& folder) {
+  Write(folder / "polygon",
+        RosBytes('\16').Header("cart").Count(2).Reals<float>({0, 0, 0, 1, 2, 3}).bytes());
+  Write(folder / "cells", RosBytes('\20')
+                              .Header("cart")
+                              .Reals<float>({0.5F, 0.25F})
+                              .Count(1)
+                              .Reals<double>({1, 2, 3})
+                              .bytes());
+  RosBytes map('\21');
+  map.Header("map").Count(4).Count(5).Reals<float>({0.5F}).Count(3).Count(2);  // width, height
+  map.Reals<double>({0, 0, 0, 0, 0, 0, 1}).Count(6);
+  for (const int cell : {0, 0, 100, 0, -1, 50}) map.Byte(cell);
+  Write(folder / "map", map.bytes());
+  RosBytes image('\23');
+  image.Header("camera").Count(2).Count(2).Text("rgb8").Byte(0).Count(6).Count(12);
+  for (int i = 0; i < 12; ++i) image.Byte(20 * i);
+  Write(folder / "image", image.bytes());
+  render::Image grey;
+  render::SetSize(grey, 8, 8);
+  const std::vector<std::uint8_t> file = render::EncodeJpeg(grey, 50);
+  Write(folder / "jpeg",
+        RosBytes('\24').Header("camera").Text("jpeg").Text({file.begin(), file.end()}).bytes());
+}
+
 void WriteMarkers(const fs::path& folder) {
   constexpr std::uint32_t kMarkerTypes = 12;
   RosBytes all('\1');
@@ -490,6 +516,7 @@ void WriteMarkers(const fs::path& folder) {
   cloud.Byte(0).Count(16).Count(32).Count(32);  // big-endian, steps of a point and a row, bytes
   cloud.Reals<float>({1, 2, 3, 0, 4, 5, 6, 1}).Byte(1);
   Write(folder / "cloud", cloud.bytes());
+  WriteMaps(folder);
   Write(folder / "not_finite",
         RosBytes('\0')
             .Header("")
