@@ -48,7 +48,6 @@ constexpr Untaken kUntaken[] = {
     {"Decay Time", "0", "only the newest points are drawn"},
     {"History Length", "1", "only the newest is drawn"},
     {"Buffer Length", "1", "only the newest is drawn"},
-    {"Pose Style", "None", "poses along the line are not drawn"},
     {"Draw Behind", "false", "it is drawn in front of what is below it"}};
 constexpr const char* kKeepingDisplay = "rviz/Odometry";
 
@@ -109,6 +108,12 @@ class StyleReader {
       for (const char* const part : has_.sizes) {
         if (part != nullptr) size += NumberOf(properties_, part, 0, 0, kLargestShown);
       }
+    }
+    const std::string poses = TextOf(display_, "Pose Style", "None");
+    if (poses == "Axes") {
+      Add("shape=axes");
+    } else if (poses != "None") {
+      Remark("Pose Style '" + poses + "': poses along the line are not drawn");
     }
     if (shape == "Arrow (3D)") Remark("Shape 'Arrow (3D)' is drawn as flat arrows");
     if (size >= kSmallestShown) {

@@ -163,15 +163,20 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const Sho
 }
 
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style) {
-  if (message.poses.size() > kMaxMarkerPoints) {
-    return TooLarge("poses", message.poses.size(), kMaxMarkerPoints);
-  }
+  constexpr std::size_t kMostWithAxes = kMaxMarkerPoints / 6;
+  constexpr double kLength = 0.3, kWidth = 0.03;  // m, of axes
+  const std::size_t most = style.has_axes ? kMostWithAxes : kMaxMarkerPoints;
+  if (message.poses.size() > most) return TooLarge("poses", message.poses.size(), most);
   Marker line = LineOf(message.header, style);
+  Marker axes = MarkerOf(message.header, 1, Marker::LINE_LIST, Color(255, 255, 255));
   for (const geometry_msgs::PoseStamped& each : message.poses) {
     line.points.push_back(each.pose.position);
+    if (style.has_axes) AddAxes(each.pose, kLength, kWidth, style, axes);
   }
   if (line.points.size() == 1) line.points.clear();  // no line
-  return OneOrNone(std::move(line));
+  ShownMarkers all = OneOrNone(std::move(line));
+  if (style.has_axes) all.push_back(OneOrNone(std::move(axes)).front());
+  return all;
 }
 
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,

@@ -51,7 +51,8 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::Odometry& message, const ShownStyl
 /// Flat arrows of 0.3 m; lines of 6 mm, because a marker has no width in pixels. Or axes of 0.3 m.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message,
                               const ShownStyle& style = {});
-/// A line through the positions, in the frame of the path, as in RViz; 2 cm wide.
+/// A line through the positions, in the frame of the path, as in RViz; 2 cm wide. With axes: of 0.3
+/// m at each pose, too.
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style = {});
 /// Its edges, as a path has them.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,

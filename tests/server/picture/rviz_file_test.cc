@@ -242,7 +242,7 @@ Visualization Manager:
     - {Class: rviz/PointStamped, Enabled: true, Topic: /a, Color: 255; 0; 16, Alpha: 0.5, Radius: 0.1}
     - {Class: rviz/Pose, Enabled: true, Topic: /b, Shape: Axes, Shaft Length: 0.5, Axes Length: 0.4}
     - {Class: rviz/Path, Enabled: true, Topic: /c, Color: 25; 255; 0, Line Style: Lines, Line Width: 0.2}
-    - {Class: rviz/Path, Enabled: true, Topic: /d, Line Style: Billboards, Line Width: 0.2}
+    - {Class: rviz/Path, Enabled: true, Topic: /d, Line Style: Billboards, Line Width: 0.2, Pose Style: Axes}
     - {Class: rviz/PointCloud2, Enabled: true, Topic: /e, Color Transformer: FlatColor,
        Color: "#00ff80", Style: Boxes, Size (m): 0.03}
     - {Class: rviz/PointCloud2, Enabled: true, Topic: /f, Color Transformer: RGB8,
@@ -264,9 +264,9 @@ Visualization Manager:
     all += (all.empty() ? "" : ",") + topic.name + topic.style;
   }
   EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)",
-                                  "(color=#19ff00)", "(size=0.2)", "(color=#00ff80,size=0.03)", "",
-                                  "", "(color=#010203)", "(size=0.5)", "(size=10)",
-                                  "(color=#0000ff,alpha=0.5,size=0.75)",
+                                  "(color=#19ff00)", "(shape=axes,size=0.2)",
+                                  "(color=#00ff80,size=0.03)", "", "", "(color=#010203)",
+                                  "(size=0.5)", "(size=10)", "(color=#0000ff,alpha=0.5,size=0.75)",
                                   "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)"));
   for (const char* remark : {"'': Covariance is not drawn", "Draw Behind 'true': it is drawn in",
                              "Color Scheme 'raw' is drawn as 'map'"}) {

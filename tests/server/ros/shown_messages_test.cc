@@ -111,6 +111,12 @@ TEST(ShownMessages, APathIsALineThroughItsPositions) {
   EXPECT_EQ(markers[0].type, Marker::LINE_STRIP);
   EXPECT_EQ(markers[0].header.frame_id, "cart");
   EXPECT_THAT(markers[0].points, SizeIs(3));
+  ShownStyle axes;
+  axes.has_axes = true;
+  const ShownMarkers with_axes = ShownOf(path, axes);
+  ASSERT_THAT(with_axes, SizeIs(2));
+  ASSERT_THAT(with_axes[1].points, SizeIs(18));
+  EXPECT_NEAR(with_axes[1].points[7].x, 1.3, 1e-12);
   path.poses.resize(1);
   EXPECT_EQ(ShownOf(path).at(0).action, Marker::DELETE);
 }
