@@ -111,6 +111,18 @@ ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose&
   return {arrow};
 }
 
+Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
+               const geometry_msgs::Vector3& vector, double metres_per_unit) {
+  Marker arrow = MarkerOf(header, id, Marker::ARROW, color);
+  const double x = metres_per_unit * vector.x, y = metres_per_unit * vector.y,
+               z = metres_per_unit * vector.z;
+  arrow.points = {PointAt(0, 0, 0), PointAt(x, y, z)};
+  arrow.scale.x = 0.018;  // diameters, as arrows of ground reaction forces (force_arrows)
+  arrow.scale.y = 0.048;
+  arrow.scale.z = std::min(0.06, 0.6 * std::hypot(x, y, z));
+  return arrow;
+}
+
 }  // namespace
 
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message, const ShownStyle& style) {
