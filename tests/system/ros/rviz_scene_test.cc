@@ -29,7 +29,7 @@ namespace {
 
 using testing::Process;
 
-constexpr char kArm[] =
+constexpr char kArmOfScene[] =
     "<robot name='arm'><link name='base'><visual><origin xyz='0 0 0.25'/><geometry>"
     "<cylinder radius='0.12' length='0.5'/></geometry><material name='b'>"
     "<color rgba='0.1 0.25 0.9 1'/></material></visual></link>"
@@ -122,7 +122,7 @@ class RVizScene : public testing::RVizProgram {
   void SetUp() override {
     RVizProgram::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    ros::param::set("/robot_description", std::string(kArm));
+    ros::param::set("/robot_description", std::string(kArmOfScene));
     joints_ = node_->advertise<sensor_msgs::JointState>("joint_states", 1, true);
     PublishLatched<tf2_msgs::TFMessage>("/tf_static", WhereTheArmStands());
     PublishLatched<sensor_msgs::PointCloud2>("/cloud", Cloud());
