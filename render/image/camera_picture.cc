@@ -94,8 +94,8 @@ class Pixels {
 
 // As large as it may be.
 Image SizedFor(int width, int height, int most_width, int most_height) {
-  const double share = std::min(
-      {1.0, static_cast<double>(most_width) / width, static_cast<double>(most_height) / height});
+  const double share =
+      std::min(static_cast<double>(most_width) / width, static_cast<double>(most_height) / height);
   Image out;
   SetSize(out, std::max(1, static_cast<int>(std::lround(share * width))),
           std::max(1, static_cast<int>(std::lround(share * height))));
@@ -103,8 +103,8 @@ Image SizedFor(int width, int height, int most_width, int most_height) {
   return out;
 }
 
-// Averages up to 4 x 4 pixels for each one.
-Image Shrunk(const CameraImage& image, int most_width, int most_height) {
+// Averages up to 4 x 4 pixels for each one, or repeats pixels.
+Image Resized(const CameraImage& image, int most_width, int most_height) {
   constexpr int kMostSamples = 4;
   const Pixels pixels(image);
   Image out = SizedFor(image.width, image.height, most_width, most_height);
@@ -138,14 +138,14 @@ Image Shrunk(const CameraImage& image, int most_width, int most_height) {
 
 }  // namespace
 
-tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int most_width,
-                                                   int most_height) {
+tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int width,
+                                                   int height) {
   const std::string defect = FindDefect(image);
   if (!defect.empty()) return tl::unexpected(defect);
-  if (image.encoding != "jpeg") return Shrunk(image, most_width, most_height);
+  if (image.encoding != "jpeg") return Resized(image, width, height);
   try {
     auto pixels = std::make_shared<Image>(
-        ReadJpeg(image.bytes->data() + image.begin, image.size, std::max(most_width, most_height)));
+        ReadJpeg(image.bytes->data() + image.begin, image.size, std::max(width, height)));
     CameraImage whole;
     whole.width = pixels->width;
     whole.height = pixels->height;
@@ -153,7 +153,7 @@ tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int
     whole.row_bytes = 4 * static_cast<std::size_t>(pixels->width);
     whole.size = pixels->rgba.size();
     whole.bytes = std::shared_ptr<const std::vector<std::uint8_t>>(pixels, &pixels->rgba);
-    return Shrunk(whole, most_width, most_height);
+    return Resized(whole, width, height);
   } catch (const std::runtime_error& error) {
     return tl::unexpected(std::string(error.what()));
   }

@@ -10,11 +10,10 @@
 
 namespace kinescope::render {
 
-/// Opaque, at most `most_width` x `most_height` px with the image's own proportions, and not larger
-/// than it is. Numbers of two and four bytes become grey between their smallest and their largest;
-/// Bayer patterns are grey, as in RViz. Or why it cannot be read.
-/// @pre most_width, most_height > 0
-tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int most_width,
-                                                   int most_height);
+/// Opaque, as large as fits into `width` x `height` px with the image's own proportions: shrunk by
+/// averages, or enlarged. Numbers of two and four bytes become grey between their smallest and
+/// their largest; Bayer patterns are grey, as in RViz. Or why it cannot be read.
+/// @pre width, height > 0
+tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int width, int height);
 
 }  // namespace kinescope::render

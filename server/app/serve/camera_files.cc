@@ -1,5 +1,7 @@
 #include "server/app/serve/camera_files.h"
 
+#include <algorithm>
+
 #include "render/image/camera_picture.h"
 #include "render/image/png_file.h"
 
@@ -16,7 +18,9 @@ std::shared_ptr<const std::string> FileOf(const CameraImage& image) {
     return std::make_shared<const std::string>(first,
                                                first + static_cast<std::ptrdiff_t>(image.size));
   }
-  const auto pixels = render::DecodeCameraImage(image, kMostWidth, kMostHeight);
+  const int width = image.width > 0 ? std::min(image.width, kMostWidth) : kMostWidth;
+  const int height = image.height > 0 ? std::min(image.height, kMostHeight) : kMostHeight;
+  const auto pixels = render::DecodeCameraImage(image, width, height);
   if (!pixels) return nullptr;
   const std::vector<std::uint8_t> bytes = render::EncodeJpeg(*pixels, kQuality);
   return std::make_shared<const std::string>(bytes.begin(), bytes.end());

@@ -60,9 +60,10 @@ void ExpectAtTheRightEdge(const Box& box) {
   EXPECT_NEAR(box.right, 1260, 2);
   EXPECT_GT(box.bottom, 600);
   EXPECT_LT(box.bottom, 680);
-  EXPECT_NEAR(box.right - box.left + 1, 160, 2) << "not enlarged";
-  EXPECT_NEAR(box.bottom - box.top + 1, 120, 2);
-  EXPECT_GT(box.pixels, 0.7 * 160 * 120) << "but for its name";
+  const int width = box.right - box.left + 1, height = box.bottom - box.top + 1;
+  EXPECT_NEAR(width, 0.22 * 1280, 2);
+  EXPECT_NEAR(height, 0.75 * width, 2);
+  EXPECT_GT(box.pixels, 0.8 * width * height) << "but for its name";
 }
 
 class CameraOverRos : public testing::RosProgram {
