@@ -457,7 +457,7 @@ function showReadings() {
   alarms.setConnected(status.level !== 'disconnected', now, shown.newest?.madeMicros ?? 0);
   alarmPanel.update(now);
   scene?.updateSurroundings(shown.details.surroundings, now);
-  cameraImages.update(shown.details.images, now);
+  cameraImages.update(shown.isNewest ? shown.details.images : [], now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

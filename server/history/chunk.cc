@@ -155,6 +155,7 @@ SceneState WithoutUnkept(const SceneState& state) {
   SceneState form = state;
   form.robots.clear();
   form.markers.clear();
+  form.images.clear();
   form.ghosts.clear();
   form.surroundings = 0;
   for (PersonState& person : form.people) {

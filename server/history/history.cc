@@ -25,6 +25,14 @@ struct ByNumber {
   static Value First(const Chunk& chunk) { return chunk.first_number(); }
 };
 
+// They are large, and former states have none.
+std::shared_ptr<const SceneState> WithoutImages(std::shared_ptr<const SceneState> state) {
+  if (state->images.empty()) return state;
+  auto without = std::make_shared<SceneState>(*state);
+  without->images.clear();
+  return without;
+}
+
 }  // namespace
 
 History::History(HistoryLimits limits, Complete complete)
@@ -44,6 +52,7 @@ History::~History() {
 
 void History::Add(std::shared_ptr<const SceneState> state) {
   series_.Add(*state);
+  state = WithoutImages(std::move(state));
   bool is_complete = false;
   {
     const std::lock_guard lock(mutex_);

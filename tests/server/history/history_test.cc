@@ -87,6 +87,19 @@ TEST(History, CompletesWhatItDoesNotKeep) {
   });
 }
 
+TEST(History, KeepsNoPicturesOfCameras) {
+  History history;
+  Fill(history, 1, 130);
+  const auto state = StateAt(131);
+  auto image = std::make_shared<const CameraImage>();
+  const std::weak_ptr<const CameraImage> kept = image;
+  state->images = {std::move(image)};
+  history.Add(state);
+  EXPECT_EQ(history.Numbered(131)->number, 131u);
+  state->images.clear();
+  EXPECT_TRUE(kept.expired()) << "ten minutes of a camera are gigabytes";
+}
+
 TEST(History, FindsEveryStateByItsNumberAndByTime) {
   History history;
   EXPECT_EQ(history.At(5), nullptr);
