@@ -116,7 +116,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
   const OverlayParts& parts = spec.parts;
   if (parts.images && !state.images.empty()) {
     page.canvas.Begin("images");
-    images_.Paint(page, state);
+    images_.Paint(page, state, parts.plot && spec.load_curves != nullptr);
   }
   if (HasOnlyRobots(state)) return;
   if (!page.is_small) {

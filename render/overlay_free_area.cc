@@ -40,7 +40,8 @@ std::vector<Covered> CoveredBy(const PictureSpec& spec, std::size_t curves,
                        sizes.height});
   }
   if (spec.parts.images) {
-    for (const ImagePlace& place : PlacesOfImages(sizes, legend.images)) {
+    for (const ImagePlace& place :
+         PlacesOfImages(sizes, legend.images, spec.parts.plot && curves > 0)) {
       covered.push_back({place.left - margin, place.top - margin, sizes.width, sizes.height});
     }
   }

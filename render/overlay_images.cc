@@ -10,8 +10,9 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kWidest = 0.22, kHighest = 0.3;  // of the picture
-constexpr double kTopmost = 0.3;                  // of its height: a plot may be above
+constexpr double kWidest = 0.22, kHighest = 0.3;            // of the picture
+constexpr double kTopmost = 0.1, kTopmostBelowPlot = 0.55;  // of its height
+constexpr double kLeastHeight = 24;                         // px
 constexpr std::int64_t kOldNanos = 1'500'000'000;
 
 // "": new, or not known.
@@ -24,15 +25,18 @@ std::string AgeOf(const CameraImage& image, const SceneState& state) {
 }  // namespace
 
 std::vector<ImagePlace> PlacesOfImages(const OverlaySizes& sizes,
-                                       const std::vector<double>& proportions) {
+                                       const std::vector<double>& proportions, bool has_plot) {
   std::vector<ImagePlace> places;
-  if (sizes.is_small) return places;
+  if (sizes.is_small || proportions.empty()) return places;
   const double margin = sizes.Px(kMargin), gap = 0.5 * margin;
   double bottom =
       sizes.bottom - margin - sizes.Px(kTimeCodeLine) - 1.3 * sizes.FontPx(kTitleSize) - gap;
+  const double top = (has_plot ? kTopmostBelowPlot : kTopmost) * sizes.height;
+  const double share = (bottom - top) / static_cast<double>(proportions.size()) - gap;
+  if (share < kLeastHeight) return places;
   for (const double proportion : proportions) {
-    const double height = std::min(kHighest * sizes.height, kWidest * sizes.width / proportion);
-    if (bottom - height < kTopmost * sizes.height) break;
+    const double height =
+        std::min({share, kHighest * sizes.height, kWidest * sizes.width / proportion});
     ImagePlace place;
     place.width = std::max(1, static_cast<int>(std::lround(height * proportion)));
     place.height = std::max(1, static_cast<int>(std::lround(height)));
@@ -60,10 +64,10 @@ const OverlayImages::Decoded& OverlayImages::Decode(std::size_t i,
   return known;
 }
 
-void OverlayImages::Paint(OverlayPage& page, const SceneState& state) {
+void OverlayImages::Paint(OverlayPage& page, const SceneState& state, bool has_plot) {
   std::vector<double> proportions;
   for (const auto& image : state.images) proportions.push_back(ProportionsOf(*image));
-  const std::vector<ImagePlace> places = PlacesOfImages(page, proportions);
+  const std::vector<ImagePlace> places = PlacesOfImages(page, proportions, has_plot);
   decoded_.resize(std::min(decoded_.size(), places.size()));
   Font& font = page.fonts.regular;
   const int size = page.FontPx(kSmallSize);

@@ -16,16 +16,16 @@ namespace kinescope::render {
 struct ImagePlace {
   int left = 0, top = 0, width = 0, height = 0;
 };
-/// From the lowest one upwards; those without room are left out. @param proportions  width by
-/// height
+/// From the lowest one upwards. @param proportions  width by height
+/// @param has_plot  above them
 std::vector<ImagePlace> PlacesOfImages(const OverlaySizes& sizes,
-                                       const std::vector<double>& proportions);
+                                       const std::vector<double>& proportions, bool has_plot);
 
 /// Remembers what it has decoded: most pictures come again in the next one that is drawn. One
 /// thread.
 class OverlayImages {
  public:
-  void Paint(OverlayPage& page, const SceneState& state);
+  void Paint(OverlayPage& page, const SceneState& state, bool has_plot);
 
  private:
   struct Decoded {

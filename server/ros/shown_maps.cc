@@ -23,7 +23,7 @@ void AddRectangle(double x, double y, double width, double height, Marker& trian
   };
   for (const double side : {0.0, 1.0}) {
     corner(0, 0);
-    corner(1, 1 - side);
+    corner(1, side);
     corner(1 - side, 1);
   }
 }

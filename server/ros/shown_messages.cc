@@ -92,6 +92,22 @@ void AddAxes(const geometry_msgs::Pose& pose, double length, double width, const
   }
 }
 
+// The line and the axes of its poses as one marker, which has one name in a legend.
+Marker WithAxes(const Marker& line, const nav_msgs::Path& path, double length,
+                const ShownStyle& style) {
+  Marker lines = line;
+  lines.type = Marker::LINE_LIST;
+  lines.points.clear();
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    lines.points.insert(lines.points.end(), {line.points[i - 1], line.points[i]});
+  }
+  lines.colors.assign(lines.points.size(), line.color);
+  for (const geometry_msgs::PoseStamped& each : path.poses) {
+    AddAxes(each.pose, length, line.scale.x, style, lines);
+  }
+  return lines;
+}
+
 ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
                       const ShownStyle& style) {
   if (style.has_axes) {
@@ -175,20 +191,17 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const Sho
 }
 
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style) {
-  constexpr std::size_t kMostWithAxes = kMaxMarkerPoints / 6;
-  constexpr double kLength = 0.3, kWidth = 0.03;  // m, of axes
-  const std::size_t most = style.has_axes ? kMostWithAxes : kMaxMarkerPoints;
+  constexpr double kLength = 0.3;  // m, of axes
+  constexpr std::size_t kPointsWithAxes = 8;
+  const std::size_t most = kMaxMarkerPoints / (style.has_axes ? kPointsWithAxes : 1);
   if (message.poses.size() > most) return TooLarge("poses", message.poses.size(), most);
   Marker line = LineOf(message.header, style);
-  Marker axes = MarkerOf(message.header, 1, Marker::LINE_LIST, Color(255, 255, 255));
   for (const geometry_msgs::PoseStamped& each : message.poses) {
     line.points.push_back(each.pose.position);
-    if (style.has_axes) AddAxes(each.pose, kLength, kWidth, style, axes);
   }
+  if (style.has_axes) return OneOrNone(WithAxes(line, message, kLength, style));
   if (line.points.size() == 1) line.points.clear();  // no line
-  ShownMarkers all = OneOrNone(std::move(line));
-  if (style.has_axes) all.push_back(OneOrNone(std::move(axes)).front());
-  return all;
+  return OneOrNone(std::move(line));
 }
 
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,

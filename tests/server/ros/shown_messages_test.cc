@@ -114,9 +114,9 @@ TEST(ShownMessages, APathIsALineThroughItsPositions) {
   ShownStyle axes;
   axes.has_axes = true;
   const ShownMarkers with_axes = ShownOf(path, axes);
-  ASSERT_THAT(with_axes, SizeIs(2));
-  ASSERT_THAT(with_axes[1].points, SizeIs(18));
-  EXPECT_NEAR(with_axes[1].points[7].x, 1.3, 1e-12);
+  ASSERT_THAT(with_axes, SizeIs(1));
+  ASSERT_THAT(with_axes[0].points, SizeIs(2 * 2 + 3 * 6));
+  EXPECT_NEAR(with_axes[0].points[4 + 7].x, 1.3, 1e-12);
   path.poses.resize(1);
   EXPECT_EQ(ShownOf(path).at(0).action, Marker::DELETE);
 }
