@@ -17,7 +17,7 @@ using visualization_msgs::Marker;
 
 // The two triangles of a rectangle in the plane z = kAboveFloor.
 void AddRectangle(double x, double y, double width, double height, Marker& triangles) {
-  constexpr double kAboveFloor = 0.005;
+  constexpr double kAboveFloor = 0.001;
   const auto corner = [&](double right, double up) {
     triangles.points.push_back(PointAt(x + right * width, y + up * height, kAboveFloor));
   };

@@ -57,9 +57,9 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& s
 /// Its edges, as a path has them.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,
                               const ShownStyle& style = {});
-/// Squares, 5 mm above their frame, because a floor lies at 0.
+/// Squares, 1 mm above their frame, because a floor lies at 0.
 Taken<ShownMarkers> ToMarkers(const nav_msgs::GridCells& message, const ShownStyle& style = {});
-/// Cells in the colours of RViz's scheme "map", 5 mm above their frame; of a map that has more than
+/// Cells in the colours of RViz's scheme "map", 1 mm above their frame; of a map that has more than
 /// kMostMapRectangles of equal cells, 2, 4, 8, ... of them are shown as one: the most occupied.
 Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const ShownStyle& style = {});
 /// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m.

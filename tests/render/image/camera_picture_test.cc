@@ -108,7 +108,7 @@ TEST(CameraPicture, ThatLiesIsRefused) {
   EXPECT_THAT(FindDefect(bad), HasSubstr("expected rgb8"));
   EXPECT_LT(FindDefect(bad).size(), 200u);
   EXPECT_EQ(FindDefect(bad).find('\x1b'), std::string::npos);
-  EXPECT_EQ(FindDefect({}), "no pixels");
+  EXPECT_EQ(FindDefect(CameraImage()), "no pixels");
   EXPECT_FALSE(DecodeCameraImage(bad, 10, 10));
 }
 
