@@ -33,7 +33,7 @@ namespace {
 
 struct RvizOptions {
   options::Text out, node;
-  options::Flag start;
+  options::Flag start, view;
 
   void List(options::OptionList& option) {
     option("out", out, "RViz configuration to write, .rviz; -: standard output");
@@ -41,6 +41,9 @@ struct RvizOptions {
     option("start", start,
            "start RViz with it, as soon as the node runs; without --out it is kept in "
            "~/.local/state/kinescope");
+    option("view", view,
+           "with the node's rendered view (~view) behind RViz's own scene, which the node then "
+           "renders");
   }
 };
 
@@ -144,7 +147,7 @@ Command RvizCommand() {
     const ros_bridge::RunningNode node = starts ? WaitFor(*values->node) : Choose(*values->node);
     const std::string file = values->out->empty() ? KeptFile(node) : *values->out;
     OutputFile out(file);
-    out.buffer() = RvizConfig(UsualConfig(), node);
+    out.buffer() = RvizConfig(UsualConfig(), node, *values->view);
     out.Finish();
     if (starts) BecomeRviz(file);
     if (file == "-") return 0;

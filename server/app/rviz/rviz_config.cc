@@ -38,7 +38,7 @@ std::string DisplayOf(std::string display, const char* name, const RunningPerson
   return display;
 }
 
-std::string DisplaysOf(const std::string& display, const RunningNode& node) {
+std::string DisplaysOf(const std::string& display, const RunningNode& node, bool with_view) {
   std::string all;
   if (IsOf(display, "RobotModel")) {
     for (const RunningPerson& person : node.people) all += DisplayOf(display, "Body", person);
@@ -46,19 +46,20 @@ std::string DisplaysOf(const std::string& display, const RunningNode& node) {
     for (const RunningPerson& person : node.people) all += DisplayOf(display, "Loads", person);
   } else if (!IsOf(display, "Camera")) {
     all = display;
-  } else if (node.has_view) {
+  } else if (node.has_view && with_view) {
     all = display;
     SetValue("Image Topic", node.name + "/view/image_raw", all);
+    for (const char* key : {"Enabled", "Value"}) SetValue(key, "true", all);
   }
   return all;
 }
 
 }  // namespace
 
-std::string RvizConfig(const std::string& usual, const RunningNode& node) {
+std::string RvizConfig(const std::string& usual, const RunningNode& node, bool with_view) {
   std::string text, display;
   bool is_display = false;
-  const auto end_display = [&] { text += DisplaysOf(std::exchange(display, ""), node); };
+  const auto end_display = [&] { text += DisplaysOf(std::exchange(display, ""), node, with_view); };
   std::istringstream lines(usual);
   for (std::string line; std::getline(lines, line);) {
     line += '\n';

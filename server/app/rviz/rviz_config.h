@@ -8,8 +8,9 @@
 namespace kinescope::app {
 
 /// `usual` (launch/kinescope.rviz) with the displays, topics and frames of `node`: a robot model
-/// and markers for each person, and the rendered view if there is one. The camera follows the
-/// first.
-std::string RvizConfig(const std::string& usual, const ros_bridge::RunningNode& node);
+/// and markers for each person. The camera follows the first. `with_view`: and the rendered view,
+/// if there is one; RViz subscribes to it even while the display is off, so that it is rendered.
+std::string RvizConfig(const std::string& usual, const ros_bridge::RunningNode& node,
+                       bool with_view = false);
 
 }  // namespace kinescope::app

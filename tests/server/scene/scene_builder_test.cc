@@ -77,7 +77,7 @@ TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
   arm->model = std::make_shared<urdf::RobotModel>();
   arm->moves = true;
   arm->world_from_link = {Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3))};
-  built.builder.OnSurroundings({{}, {arm}});
+  built.builder.OnSurroundings({{}, {arm}, {}});
   built.builder.OnSample(SampleOf("lift", 0));
   ASSERT_EQ(built.last().robots.size(), 1u);
   EXPECT_EQ(built.last().robots[0].world_from_link[0].translation(), Vector3d(1, 2, 3));
@@ -85,7 +85,7 @@ TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
   EXPECT_GT(before, 0u);
   auto moved = std::make_shared<RobotState>(*arm);
   moved->world_from_link[0].pretranslate(Vector3d(0, 0, 1));
-  built.builder.OnSurroundings({{}, {moved}});
+  built.builder.OnSurroundings({{}, {moved}, {}});
   built.builder.OnSample(SampleOf("lift", 1));
   EXPECT_EQ(built.last().robots[0].world_from_link[0].translation(), Vector3d(1, 2, 4));
   EXPECT_EQ(built.last().surroundings, before) << "its shape is the same";
@@ -101,7 +101,7 @@ TEST(SceneBuilder, ShowsTheMarkersOfARecordingWithItsSamplesBesideThoseOfOtherNo
   const auto recorded = std::make_shared<const SceneMarker>();
   const auto of_a_node = std::make_shared<const SceneMarker>();
   Built built;
-  built.builder.OnSurroundings({{recorded}, {}});
+  built.builder.OnSurroundings({{recorded}, {}, {}});
   EXPECT_TRUE(built.states.empty()) << "a picture of no person";
   built.builder.OnSample(SampleOf("lift", 0));
   EXPECT_EQ(built.last().markers, MarkerList{recorded});
@@ -111,6 +111,19 @@ TEST(SceneBuilder, ShowsTheMarkersOfARecordingWithItsSamplesBesideThoseOfOtherNo
   built.builder.OnSurroundings({});
   built.builder.OnSample(SampleOf("lift", 2));
   EXPECT_EQ(built.last().markers, MarkerList{of_a_node});
+}
+
+TEST(SceneBuilder, ShowsPicturesOfCamerasFourAtMostAndCallsThemNoNews) {
+  const auto picture = [] { return std::make_shared<const CameraImage>(); };
+  const ImageList recorded = {picture()}, of_nodes = {picture(), picture(), picture(), picture()};
+  Built built;
+  built.builder.OnSample(SampleOf("lift", 0));
+  const std::uint64_t before = built.last().surroundings;
+  built.builder.OnSurroundings({{}, {}, recorded});
+  built.builder.SetImages(of_nodes);
+  built.builder.OnSample(SampleOf("lift", 1));
+  EXPECT_EQ(built.last().images, (ImageList{recorded[0], of_nodes[0], of_nodes[1], of_nodes[2]}));
+  EXPECT_EQ(built.last().surroundings, before) << "the page need not load triangles anew";
 }
 
 TEST(SceneBuilder, HasTheHeadingOfLiveViewsInEveryState) {

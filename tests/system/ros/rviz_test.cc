@@ -298,6 +298,38 @@ TEST_F(RViz, ShowsTheExportedPersonIdentically) {
   ExpectTheSamePicture(xml, positions, {{0, 0, -0.1}, 2.6, 0.6, 0.25});
 }
 
+// RViz 1.14 subscribes to the topic of a display that is off, and the server would render for it.
+TEST_F(RViz, DoesNotAskForTheViewUnlessToldTo) {
+  const auto program = Start("serve demo:n_pose --ros required --http_port 0");
+  WaitForLine(*program, "page at ");
+  const auto listeners = [](const std::string& topic) {
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = "/listening_test";
+    if (!ros::master::execute("getSystemState", request, response, payload, false)) return 0;
+    for (int i = 0; i < payload[1].size(); ++i) {
+      if (static_cast<std::string>(payload[1][i][0]) == topic) return payload[1][i][1].size();
+    }
+    return 0;
+  };
+  const auto start = [&](const std::string& more) {
+    EXPECT_TRUE(Spin([&] {
+      const auto written =
+          testing::RunProgram({"/bin/bash", "-c",
+                               "exec '" + testing::KinescopePath() + "' rviz " + more + " --out '" +
+                                   (folder_ / "view.rviz").string() + "'"});
+      return written.exit_code == 0;
+    }));
+    return StartRViz();
+  };
+  {
+    const auto rviz = start("");
+    ASSERT_TRUE(Spin([&] { return listeners("/kinescope/markers") > 0; }));
+    EXPECT_EQ(listeners("/kinescope/view/image_raw"), 0);
+  }
+  const auto rviz = start("--view");
+  EXPECT_TRUE(Spin([&] { return listeners("/kinescope/view/image_raw") > 0; }));
+}
+
 TEST_F(RViz, ShowsTheSamePublishedHumanModels) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
   // Nearly black, which would tell nothing of colours.

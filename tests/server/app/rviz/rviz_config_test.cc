@@ -26,13 +26,14 @@ std::map<std::string, YAML::Node> DisplaysByName(const std::string& text) {
 }
 
 TEST(RvizConfig, ShowsEveryPersonOfTheNode) {
-  const std::string text =
-      RvizConfig(Usual(), {"/lab/suits",
-                           "lab: \"one\"",
-                           true,
-                           true,
-                           {{"anna", "/human_description", "/lab/suits/"},
-                            {"ben", "/ben/robot_description", "/lab/suits/ben/"}}});
+  const std::string text = RvizConfig(Usual(),
+                                      {"/lab/suits",
+                                       "lab: \"one\"",
+                                       true,
+                                       true,
+                                       {{"anna", "/human_description", "/lab/suits/"},
+                                        {"ben", "/ben/robot_description", "/lab/suits/ben/"}}},
+                                      /*with_view=*/true);
   auto displays = DisplaysByName(text);
   EXPECT_EQ(displays.size(), DisplaysByName(Usual()).size() + 2);
   EXPECT_EQ(displays["Body of anna"]["Robot Description"].as<std::string>(), "/human_description");
@@ -42,6 +43,7 @@ TEST(RvizConfig, ShowsEveryPersonOfTheNode) {
   EXPECT_EQ(displays["Loads of ben"]["Marker Topic"].as<std::string>(), "/lab/suits/ben/markers");
   EXPECT_EQ(displays["Kinescope's view"]["Image Topic"].as<std::string>(),
             "/lab/suits/view/image_raw");
+  EXPECT_TRUE(displays["Kinescope's view"]["Enabled"].as<bool>());
   const YAML::Node manager = YAML::Load(text)["Visualization Manager"];
   EXPECT_EQ(manager["Global Options"]["Fixed Frame"].as<std::string>(), "lab: \"one\"");
   EXPECT_EQ(manager["Views"]["Current"]["Target Frame"].as<std::string>(), "anna_pelvis");
@@ -53,9 +55,18 @@ TEST(RvizConfig, ShowsEveryPersonOfTheNode) {
 TEST(RvizConfig, HasNoViewWhereNoneIsPublished) {
   const auto displays = DisplaysByName(RvizConfig(
       Usual(),
-      {"/kinescope", "world", true, false, {{"skeleton", "/robot_description", "/kinescope/"}}}));
+      {"/kinescope", "world", true, false, {{"skeleton", "/robot_description", "/kinescope/"}}},
+      /*with_view=*/true));
   EXPECT_EQ(displays.count("Kinescope's view"), 0U);
   EXPECT_EQ(displays.count("Floor"), 1U);
+}
+
+TEST(RvizConfig, HasTheViewOnlyWhereItIsAskedFor) {
+  const auto displays = DisplaysByName(RvizConfig(
+      Usual(),
+      {"/kinescope", "world", true, true, {{"skeleton", "/robot_description", "/kinescope/"}}}));
+  EXPECT_EQ(displays.count("Kinescope's view"), 0U);
+  EXPECT_EQ(DisplaysByName(Usual())["Kinescope's view"]["Image Topic"].as<std::string>(), "");
 }
 
 }  // namespace
