@@ -133,6 +133,7 @@ STATUS = {
     "acknowledgeAlarm": 409,  # there is none of this number
     "setRecording": 409,  # of a source that is no live stream
     "downloadFile": 404,
+    "getImage": 404,  # no camera without ROS: tests/system/ros/camera_test.cc has one
 }
 
 
