@@ -17,7 +17,7 @@ namespace {
 using Rgb8 = std::array<int, 3>;
 
 std::uint8_t Byte(double value) {
-  return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
 // The pixels of an image that has no defect.

@@ -75,7 +75,7 @@ void SayNothing(j_common_ptr /*state*/, int /*level*/) {}
 
 // A small file may ask for any number of passes over the whole picture.
 void CheckScans(j_common_ptr state) {
-  constexpr int kMostScans = 100;
+  constexpr int kMostScans = 20;
   const auto* const decoder = reinterpret_cast<jpeg_decompress_struct*>(state);
   if (decoder->input_scan_number <= kMostScans) return;
   auto* const handler = reinterpret_cast<ErrorHandler*>(state->err);
@@ -86,8 +86,8 @@ void CheckScans(j_common_ptr state) {
 // Nothing here has a destructor; `image` belongs to the caller.
 bool RunJpegDecoder(Decoder& decoder, const std::uint8_t* bytes, std::size_t size, int enough_px,
                     Image& image) {
-  constexpr JDIMENSION kMostSide = 16'384;
-  constexpr long kMostMemory = 256L << 20;  // bytes, of the coefficients of a progressive picture
+  constexpr JDIMENSION kMostSide = 8'192;
+  constexpr long kMostMemory = 128L << 20;  // bytes, of the coefficients of a progressive picture
   jpeg_decompress_struct& state = decoder.state;
   state.err = jpeg_std_error(&decoder.error.manager);
   state.err->error_exit = Escape;
@@ -100,7 +100,7 @@ bool RunJpegDecoder(Decoder& decoder, const std::uint8_t* bytes, std::size_t siz
   jpeg_mem_src(&state, bytes, static_cast<unsigned long>(size));
   jpeg_read_header(&state, TRUE);
   if (state.image_width > kMostSide || state.image_height > kMostSide) {
-    decoder.refusal = "more than 16384 px a side";
+    decoder.refusal = "more than 8192 px a side";
     return false;
   }
   const auto longest = static_cast<int>(std::max(state.image_width, state.image_height));

@@ -34,7 +34,7 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
 
 /// Of untrusted bytes. A larger picture is read at a half, a quarter or an eighth of its size, as
 /// long as it stays larger than `enough_px` one way. Opaque.
-/// @throws std::runtime_error with the reason: no JPEG, damaged, or more than 16,384 px a side
+/// @throws std::runtime_error with the reason: no JPEG, damaged, or more than 8,192 px a side
 Image ReadJpeg(const std::uint8_t* bytes, std::size_t size, int enough_px);
 
 }  // namespace kinescope::render
