@@ -176,8 +176,8 @@ loadDiagnostics();
 
 function makeScene() {
   try {
-    return new Scene(elements.view, [elements.cameras, elements.points, elements['loads-shown'], elements['camera-images'], elements.banner],
-      { onOrbit: () => cameras.mark('') });
+    const { cameras: toolbar, points, 'loads-shown': loadsShown, 'camera-images': images, banner } = elements;
+    return new Scene(elements.view, [toolbar, points, loadsShown, images, banner], { onOrbit: () => cameras.mark('') });
   } catch {
     const note = document.createElement('p');
     note.className = 'no-webgl';
