@@ -6,9 +6,17 @@ const PAUSE_MILLIS = 200;
 
 /** @typedef {import('./messages.js').CameraImage} CameraImage */
 
+/** Whether it is a picture.
+ *  @param {string} url */
+function isDecoded(url) {
+  const image = new Image();
+  image.src = url;
+  return image.decode().then(() => true, () => false);
+}
+
 export class CameraImages {
   /** @type {Map<string, {figure: HTMLElement, image: HTMLImageElement, note: HTMLElement, number: number, url: string,
-   *    isAsking: boolean, dueAt: number}>} */
+   *    tag: string, isAsking: boolean, dueAt: number}>} */
   #shown = new Map();
   #host;
 
@@ -45,7 +53,7 @@ export class CameraImages {
     image.alt = `Camera ${name}`;
     figure.append(image, note);
     this.#host.append(figure);
-    const one = { figure, image, note, number: 0, url: '', isAsking: false, dueAt: 0 };
+    const one = { figure, image, note, number: 0, url: '', tag: '', isAsking: false, dueAt: 0 };
     this.#shown.set(name, one);
     return one;
   }
@@ -56,12 +64,17 @@ export class CameraImages {
     if (one === undefined) return;
     one.isAsking = true;
     // One that does not come is asked for again: the banner says what has become of the server.
-    const picture = await request(`api/v1/image/${one.number}`).then((answer) => answer.blob()).catch(() => null);
+    const answer = await request(`api/v1/image/${one.number}`).catch(() => null);
+    const tag = answer?.headers.get('ETag') ?? '';
+    const picture = tag === one.tag ? null : await answer?.blob().catch(() => null);
+    const url = picture ? URL.createObjectURL(picture) : '';
+    const isPicture = url !== '' && await isDecoded(url);  // before it is shown, so that the place is never empty
     one.isAsking = false;
     one.dueAt = performance.now() + PAUSE_MILLIS;
-    if (picture === null || this.#shown.get(name) !== one) return;
+    if (!isPicture || this.#shown.get(name) !== one) return URL.revokeObjectURL(url);
+    one.image.src = url;
     URL.revokeObjectURL(one.url);
-    one.url = URL.createObjectURL(picture);
-    one.image.src = one.url;
+    one.url = url;
+    one.tag = tag;
   }
 }
