@@ -114,7 +114,7 @@ void Canvas::Picture(int x, int y, const Image& pixels) {
     return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
                 static_cast<std::size_t>(column));
   };
-  const auto row_bytes = static_cast<std::ptrdiff_t>(4 * (last_x - first_x));
+  const auto row_bytes = 4 * static_cast<std::ptrdiff_t>(last_x - first_x);
   for (int row = first_y; row < last_y; ++row) {
     const auto from =
         pixels.rgba.begin() + static_cast<std::ptrdiff_t>(at(pixels, first_x - x, row - y));

@@ -69,7 +69,7 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     return;
   }
   if (IsImageType(sum)) {
-    const auto message = event.getConstMessage();  // which lives as long as its pixels are shown
+    const auto& message = event.getConstMessage();  // which lives as long as its pixels are shown
     std::shared_ptr<const std::vector<std::uint8_t>> bytes(&message->bytes,
                                                            [message](const void*) {});
     return TakeImage(topic, ReadImage(sum, std::move(bytes)), monotonic_nanos);
