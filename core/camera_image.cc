@@ -19,7 +19,7 @@ std::optional<PixelFormat> FormatOf(const std::string& encoding) {
   if (encoding == "bgr8" || encoding == "8UC3") return PixelFormat{Kind::kRgb, 3, {2, 1, 0}};
   if (encoding == "rgba8") return PixelFormat{Kind::kRgb, 4, {0, 1, 2}};
   if (encoding == "bgra8" || encoding == "8UC4") return PixelFormat{Kind::kRgb, 4, {2, 1, 0}};
-  const bool is_bayer = StartsWith(encoding, "bayer_") && encoding.back() == '8';
+  const bool is_bayer = StartsWith(encoding, "bayer_") && EndsWith(encoding, "8");
   if (encoding == "mono8" || encoding == "8UC1" || is_bayer) return PixelFormat{Kind::kGrey8, 1};
   if (encoding == "mono16" || encoding == "16UC1") return PixelFormat{Kind::kNumber, 2};
   if (encoding == "16SC1") return PixelFormat{Kind::kNumber, 2, {}, false, true};
@@ -61,6 +61,11 @@ double ProportionsOf(const CameraImage& image) {
   constexpr double kOfFiles = 4.0 / 3, kMost = 4;
   if (image.width <= 0 || image.height <= 0) return kOfFiles;
   return std::clamp(static_cast<double>(image.width) / image.height, 1 / kMost, kMost);
+}
+
+bool IsOld(const CameraImage& image, std::int64_t now_nanos) {
+  constexpr std::int64_t kOldNanos = 1'500'000'000;
+  return image.received_nanos != 0 && now_nanos - image.received_nanos > kOldNanos;
 }
 
 }  // namespace kinescope

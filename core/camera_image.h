@@ -42,6 +42,10 @@ std::optional<PixelFormat> FormatOf(const std::string& encoding);
 /// Width by height, within limits that a layout can bear; 4 : 3 of a file, which is not looked at.
 [[nodiscard]] double ProportionsOf(const CameraImage& image);
 
+/// Whether it is the newest although others should have come since. `now_nanos`: monotonic clock,
+/// as SceneState::made_nanos. Not known of a recording.
+[[nodiscard]] bool IsOld(const CameraImage& image, std::int64_t now_nanos);
+
 /// The newest of each topic. Their order does not change.
 using ImageList = std::vector<std::shared_ptr<const CameraImage>>;
 

@@ -16,6 +16,8 @@ struct PersonChange {
   std::optional<double> height_m;
   std::optional<std::string> name;
 
+  bool is_empty() const { return !mass_kg && !sex && !height_m && !name; }
+
   /// What `later` sets replaces what this one sets.
   void Add(const PersonChange& later) {
     if (later.mass_kg) mass_kg = later.mass_kg;

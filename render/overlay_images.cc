@@ -13,13 +13,11 @@ namespace {
 constexpr double kWidest = 0.22, kHighest = 0.3;            // of the picture
 constexpr double kTopmost = 0.1, kTopmostBelowPlot = 0.55;  // of its height
 constexpr double kLeastHeight = 24;                         // px
-constexpr std::int64_t kOldNanos = 1'500'000'000;
 
 // "": new, or not known.
 std::string AgeOf(const CameraImage& image, const SceneState& state) {
-  const std::int64_t age = state.made_nanos - image.received_nanos;
-  if (image.received_nanos == 0 || state.made_nanos == 0 || age < kOldNanos) return "";
-  return std::to_string(age / kNanosPerSecond) + " s old";
+  if (!IsOld(image, state.made_nanos)) return "";
+  return std::to_string((state.made_nanos - image.received_nanos) / kNanosPerSecond) + " s old";
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ namespace kinescope::urdf {
 enum class Sex { kMale, kFemale };
 
 /// Body mass of a person whose mass is unknown, kg.
+/// "male", "female".
+constexpr const char* Name(Sex sex) { return sex == Sex::kMale ? "male" : "female"; }
 constexpr double DefaultMass(Sex sex) { return sex == Sex::kMale ? 75 : 62; }
 
 /// Source of the mass shares, with sections of joint-loads.md 1. Values that a table lacks are

@@ -416,12 +416,9 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
         {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
   }
   json images = json::array();
-  constexpr std::int64_t kOldNanos = 1'500'000'000;
   for (std::size_t i = 0; state != nullptr && i < state->images.size(); ++i) {
     const CameraImage& image = *state->images[i];
-    const bool is_old =
-        image.received_nanos != 0 && state->made_nanos - image.received_nanos > kOldNanos;
-    images.push_back({{"name", image.name}, {"is_old", is_old}});
+    images.push_back({{"name", image.name}, {"is_old", IsOld(image, state->made_nanos)}});
   }
   // Those of a former moment are not known.
   const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;

@@ -140,8 +140,7 @@ Parsed<PersonOrder> ParsePersonOrder(std::string_view body) {
         change.sex = value == "male" ? urdf::Sex::kMale : urdf::Sex::kFemale;
         return true;
       });
-  const bool changes = change.mass_kg || change.height_m || change.sex || change.name;
-  if (wrong.empty() && !changes) wrong = kExpectedPerson;
+  if (wrong.empty() && change.is_empty()) wrong = kExpectedPerson;
   if (!wrong.empty()) return tl::unexpected(std::move(wrong));
   return order;
 }

@@ -40,9 +40,7 @@ class Router {
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
     std::function<std::shared_ptr<const http::Surroundings>()> surroundings;  // may be null
-    std::function<std::shared_ptr<const std::string>(
-        std::size_t number, const std::shared_ptr<const CameraImage>& image)>
-        camera_image;                  // may be null
+    GetCameraFile camera_image;                                               // may be null
     marks::MarkBook* marks = nullptr;  // may be null: nothing can be marked
     Controls* controls = nullptr;      // may be null
     alarms::Alarms* alarms = nullptr;  // may be null: nothing is watched

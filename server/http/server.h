@@ -43,6 +43,11 @@ struct Surroundings {
   std::string glb;             // render/surroundings.h
 };
 
+/// A picture of a camera as JPEG; null: it cannot be read. @param number  of the image in
+/// SceneState::images
+using GetCameraFile = std::function<std::shared_ptr<const std::string>(
+    std::size_t number, const std::shared_ptr<const CameraImage>& image)>;
+
 /// A named camera for a person who stands at the world's origin. World frame, metres. The page uses
 /// these numbers for its 3-D view, so that a name means the same view everywhere.
 struct CameraView {
@@ -136,11 +141,8 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// The newest that is made; null: none yet. Called on the server's thread. May be null.
   std::function<std::shared_ptr<const Surroundings>()> surroundings;
-  /// A picture of a camera as JPEG; null: it cannot be read. Called on the server's thread, must
-  /// return at once. May be null. @param number  of the image in SceneState::images
-  std::function<std::shared_ptr<const std::string>(std::size_t number,
-                                                   const std::shared_ptr<const CameraImage>& image)>
-      camera_image;
+  /// Called on the server's thread, must return at once. May be null.
+  GetCameraFile camera_image;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
   /// What operators do; borrowed. Null: the page has no controls.

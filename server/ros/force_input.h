@@ -21,6 +21,9 @@ struct Refusal {
   const char* kind;  // from a fixed set; key of the counter
   std::string text;  // one line with the values
 };
+inline Refusal Unreadable() {
+  return {"unreadable", "a message that is truncated or has a wrong length field"};
+}
 template <class T>
 using Taken = tl::expected<T, Refusal>;
 

@@ -2,7 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
+#include <string_view>
+
+#include "core/system/starts_with.h"
+#include "server/ros/names.h"
 
 namespace kinescope::ros_bridge {
 
@@ -22,12 +25,9 @@ ImageList ImageBox::images() const {
 }
 
 std::string NameOfCamera(const std::string& topic) {
-  const std::string transport = "/compressed";
-  std::string name = topic.substr(std::min(topic.find_first_not_of('/'), topic.size()));
-  const bool has_transport =
-      name.size() > transport.size() &&
-      name.compare(name.size() - transport.size(), transport.size(), transport) == 0;
-  if (has_transport) name.resize(name.size() - transport.size());
+  constexpr std::string_view kTransport = "/compressed";
+  std::string name = WithoutSlashes(topic);
+  if (EndsWith(name, kTransport)) name.resize(name.size() - kTransport.size());
   return name;
 }
 

@@ -74,10 +74,7 @@ Taken<CameraImage> ReadImage(const std::string& md5sum,
       is_whole = false;
     }
   }
-  if (!is_whole) {
-    return tl::unexpected(
-        Refusal{"unreadable", "a message that is truncated or has a wrong length field"});
-  }
+  if (!is_whole) return tl::unexpected(Unreadable());
   if (is_file && !IsJpeg(image)) {
     return tl::unexpected(Refusal{"cannot be drawn", "a compressed image that is no JPEG"});
   }

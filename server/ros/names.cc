@@ -97,6 +97,10 @@ std::string WithSlash(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }
 
+std::string WithoutSlashes(const std::string& topic) {
+  return topic.substr(std::min(topic.find_first_not_of('/'), topic.size()));
+}
+
 std::string AsRosName(const std::string& text) {
   std::string name;
   for (const char c : text) name += IsLetter(c) || IsDigit(c) ? c : '_';

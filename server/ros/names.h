@@ -47,6 +47,8 @@ std::string AsSnakeCase(const std::string& text);
 
 /// The name of a topic as graphs have it, which bags do not always: "tf" becomes "/tf".
 std::string WithSlash(const std::string& topic);
+/// As people read it: "plan" for "/plan".
+std::string WithoutSlashes(const std::string& topic);
 
 /// `text` as one element of a ROS name: letters, digits and _, beginning with a letter.
 std::string AsRosName(const std::string& text);

@@ -33,8 +33,6 @@ constexpr NumberParameter kNumbers[] = {
      [](LiveSettings& all) -> double& { return all.height_m; }},
 };
 
-const char* NameOf(urdf::Sex sex) { return sex == urdf::Sex::kFemale ? "female" : "male"; }
-
 // As the generator of dynamic_reconfigure writes it, a dictionary of Python.
 std::string Choices(const char* description, const std::vector<std::string>& values) {
   std::string items;
@@ -58,8 +56,7 @@ ParamDescription Describe(const char* name, const char* type, const char* descri
 }
 
 const std::vector<std::string>& Sexes() {
-  static const std::vector<std::string> names = {NameOf(urdf::Sex::kMale),
-                                                 NameOf(urdf::Sex::kFemale)};
+  static const std::vector<std::string> names = {Name(urdf::Sex::kMale), Name(urdf::Sex::kFemale)};
   return names;
 }
 
@@ -100,7 +97,7 @@ class Reader {
 
   void TakeText(const std::string& name, const std::string& value) {
     if (name == kSex && Has(Sexes(), value)) {
-      wanted_.all.sex = value == NameOf(urdf::Sex::kFemale) ? urdf::Sex::kFemale : urdf::Sex::kMale;
+      wanted_.all.sex = value == Name(urdf::Sex::kFemale) ? urdf::Sex::kFemale : urdf::Sex::kMale;
     } else if (name == kCamera && Has(cameras_, value)) {
       wanted_.all.camera = value;
     } else if (name == kSex || (name == kCamera && !cameras_.empty())) {
@@ -169,7 +166,7 @@ Config ToConfig(const LiveSettings& settings) {
     config.strs.back().name = name;
     config.strs.back().value = value;
   };
-  add_text(kSex, NameOf(settings.sex));
+  add_text(kSex, Name(settings.sex));
   if (!settings.camera.empty()) add_text(kCamera, settings.camera);
   config.groups.resize(1);
   config.groups[0].name = kGroup;

@@ -70,8 +70,7 @@ dynamic_reconfigure::Config SettingsServer::Set(const dynamic_reconfigure::Confi
     current_.class_limits = wanted.all.class_limits;
   }
   if (change.camera && order({{}, {}, change.camera})) current_.camera = wanted.all.camera;
-  const bool changes_person = change.person.mass_kg || change.person.height_m || change.person.sex;
-  if (changes_person && order({{}, change.person, {}})) {
+  if (!change.person.is_empty() && order({{}, change.person, {}})) {
     current_.mass_kg = wanted.all.mass_kg;
     current_.height_m = wanted.all.height_m;
     current_.sex = wanted.all.sex;

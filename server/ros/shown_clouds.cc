@@ -201,7 +201,8 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
                each.values.size() == message.points.size();
       });
   std::vector<double> intensities;
-  for (std::size_t i = 0; i < message.points.size(); i += StepOf(message.points.size())) {
+  const std::size_t step = StepOf(message.points.size());
+  for (std::size_t i = 0; i < message.points.size(); i += step) {
     const geometry_msgs::Point32& point = message.points[i];
     const geometry_msgs::Point place = PointAt(
         static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));

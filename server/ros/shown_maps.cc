@@ -89,7 +89,9 @@ std::optional<std::vector<MapRectangle>> RectanglesOf(const MapCells& cells) {
     auto before = above.begin();
     for (std::uint32_t x = 0; x < cells.width();) {
       MapRectangle run = {x, y, 0, 1, cells.At(x, y)};
-      while (x < cells.width() && cells.At(x, y) == run.cell) ++x;
+      do {
+        ++x;
+      } while (x < cells.width() && cells.At(x, y) == run.cell);
       run.width = x - run.x;
       while (before != above.end() && all[*before].x < run.x) ++before;
       const bool goes_on = before != above.end() && all[*before].x == run.x &&

@@ -27,10 +27,7 @@ Marker LineOf(const std_msgs::Header& header, const ShownStyle& style) {
 template <class Message>
 Taken<ShownMarkers> OfBytes(const std::vector<std::uint8_t>& bytes, const ShownStyle& style) {
   Message message;
-  if (!ReadBounded(bytes.data(), bytes.size(), message)) {
-    return tl::unexpected(
-        Refusal{"unreadable", "a message that is truncated or has a wrong length field"});
-  }
+  if (!ReadBounded(bytes.data(), bytes.size(), message)) return tl::unexpected(Unreadable());
   return ToMarkers(message, style);
 }
 
@@ -246,7 +243,7 @@ ToMarkersOfBytes FindShownMessage(const std::string& md5sum) {
 }
 
 void NameByTopic(ShownMarkers& markers, const std::string& topic) {
-  for (Marker& marker : markers) marker.ns = topic.substr(topic.find_first_not_of('/'));
+  for (Marker& marker : markers) marker.ns = WithoutSlashes(topic);
 }
 
 std::string NamesOfShownMessages() {

@@ -181,7 +181,7 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const urdf::BodyDescription& body = model.description;
   const loads::LoadSettings& settings = context.scene.loads;
   std::vector<Fact> facts;
-  facts.push_back({"sex", body.sex == urdf::Sex::kMale ? "male" : "female", body.sex_is_assumed});
+  facts.push_back({"sex", Name(body.sex), body.sex_is_assumed});
   facts.push_back({"mass", fmt::format("{:g} kg", body.mass_kg), body.mass_is_assumed});
   facts.push_back({"stature", StatureText(model),
                    !model.lengths_are_measured && context.scene.height_is_assumed});

@@ -25,8 +25,6 @@ constexpr double kShortestClip = 0.1, kLongestClip = 600;  // s
 
 std::string Kilograms(double mass) { return fmt::format("{:g} kg", mass); }
 
-const char* NameOf(urdf::Sex sex) { return sex == urdf::Sex::kFemale ? "female" : "male"; }
-
 std::string PercentText(const std::array<double, 2>& limits) {
   return fmt::format("{:g} % and {:g} %", 100 * limits[0], 100 * limits[1]);
 }
@@ -252,7 +250,7 @@ ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, std::
               Kilograms(*change.mass_kg));
   }
   if (change.sex) {
-    log_.Note(role, "sex of " + who, NameOf(stated.sex.value_or(body.sex)), NameOf(*change.sex));
+    log_.Note(role, "sex of " + who, Name(stated.sex.value_or(body.sex)), Name(*change.sex));
   }
   if (change.height_m) {
     const double before = stated.height_m.value_or(model.human.skeleton.height);
@@ -330,7 +328,7 @@ OptionTexts ControlDesk::OptionsNow() const {
   if (stated != stated_.end()) {
     const PersonChange& change = stated->second;
     if (change.mass_kg) SetOption(options, "mass", fmt::format("{}", *change.mass_kg));
-    if (change.sex) SetOption(options, "sex", NameOf(*change.sex));
+    if (change.sex) SetOption(options, "sex", Name(*change.sex));
     if (change.height_m) SetOption(options, "height", fmt::format("{}", *change.height_m));
   }
   const HandLoad load = held_.Of(character);

@@ -89,7 +89,6 @@ json PersonToJson(const PersonState& person, const ControlStatus& status) {
   const auto held = status.held.find(person.character);
   const PersonModel& model = *person.model;
   const urdf::BodyDescription& body = model.description;
-  const bool is_female = body.sex == urdf::Sex::kFemale;
   const char* const lengths = model.lengths_are_of_poses   ? "poses"
                               : model.lengths_are_measured ? "stream"
                                                            : "none";
@@ -99,7 +98,7 @@ json PersonToJson(const PersonState& person, const ControlStatus& status) {
            {{"value", body.mass_kg},
             {"from", OriginOf(stated.mass_kg.has_value(), body.mass_is_assumed)}}},
           {"sex",
-           {{"value", is_female ? "female" : "male"},
+           {{"value", Name(body.sex)},
             {"from", OriginOf(stated.sex.has_value(), body.sex_is_assumed)}}},
           {"height_m",
            {{"value", std::round(1000 * model.human.skeleton.height) / 1000},

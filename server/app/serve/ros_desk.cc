@@ -27,10 +27,6 @@ constexpr char kNotNow[] = "the server is starting or stopping";
 
 using Refused = std::vector<std::string>;  // why not, of each that is not changed
 
-bool IsEmpty(const PersonChange& change) {
-  return !change.mass_kg && !change.sex && !change.height_m && !change.name;
-}
-
 std::optional<int> FirstCharacter(const RosDesk::Parts& parts) {
   const auto state = parts.states.Get();
   if (state == nullptr || state->people.empty()) return std::nullopt;
@@ -44,7 +40,7 @@ Refused ChangeOnPage(const RosDesk::Parts& parts, const SettingsChange& wanted) 
     if (!result) refused.push_back(result.error().reason);
   };
   if (wanted.class_limits) add(parts.desk->SetClassLimits(*wanted.class_limits, kRosRole));
-  if (!IsEmpty(wanted.person)) {
+  if (!wanted.person.is_empty()) {
     add(parts.desk->SetPerson({FirstCharacter(parts), wanted.person}, kRosRole));
   }
   if (!wanted.camera) return refused;
@@ -57,14 +53,20 @@ Refused ChangeAlone(const RosDesk::Parts& parts, const SettingsChange& wanted) {
   Refused refused;
   if (wanted.class_limits) {
     const std::string wrong = FindDefect(*wanted.class_limits);
-    if (wrong.empty()) parts.changes.Put(*wanted.class_limits);
-    if (!wrong.empty()) refused.push_back(wrong);
+    if (wrong.empty()) {
+      parts.changes.Put(*wanted.class_limits);
+    } else {
+      refused.push_back(wrong);
+    }
   }
-  if (!IsEmpty(wanted.person)) {
+  if (!wanted.person.is_empty()) {
     const std::optional<int> first = FirstCharacter(parts);
     const std::string wrong = first ? FindDefect(wanted.person) : kNobodyYet;
-    if (wrong.empty()) parts.changes.Put(*first, wanted.person);
-    if (!wrong.empty()) refused.push_back(wrong);
+    if (wrong.empty()) {
+      parts.changes.Put(*first, wanted.person);
+    } else {
+      refused.push_back(wrong);
+    }
   }
   if (wanted.camera) refused.push_back(http::kNoRenderer);
   return refused;
