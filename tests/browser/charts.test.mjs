@@ -2,8 +2,11 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, countPixels, openPage, PHONE, pixelsOf, pixelsOfPng, saveFile, saveScreenshot, startFixture }
-  from './open_page.mjs';
+import {
+  chooseTab, closeBrowser, countPixels, drawSeldom, openPage, PHONE, pixelsOf, pixelsOfPng, saveFile, saveScreenshot, startFixture,
+} from './open_page.mjs';
+
+drawSeldom();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);

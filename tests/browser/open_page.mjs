@@ -25,8 +25,14 @@ const FLAGS = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio',
 ];
 const PATIENCE_MILLIS = 60000;  // only a failure takes so long
+const SELDOM_MILLIS = 200;
 
 let browser = null;
+let isDrawnSeldom = false;
+
+/** For tests of what stands beside the view: the pages that are opened from now on draw five times a second. Software WebGL
+ *  takes most of two cores otherwise, and everything waits for it. */
+export function drawSeldom() { isDrawnSeldom = true; }
 
 async function launch() {
   if (!existsSync(CHROMIUM)) {
@@ -139,6 +145,12 @@ export async function openPage(url, options = {}) {
     const { protocol, host } = new URL(request.url());
     if (protocol !== 'blob:' && protocol !== 'data:' && host !== home) problems.push(`foreign request: ${request.url()}`);
   });
+  if (isDrawnSeldom) {
+    await page.addInitScript((millis) => {
+      const nextFrame = window.requestAnimationFrame.bind(window);
+      window.requestAnimationFrame = (draw) => window.setTimeout(() => nextFrame(draw), millis);
+    }, SELDOM_MILLIS);
+  }
   await options.beforeLoad?.(page);
   await page.goto(url, { waitUntil: 'load' });
   return { page, problems, requests, close: () => context.close() };

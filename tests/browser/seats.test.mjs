@@ -2,7 +2,9 @@
 // gone.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, openPage, PHONE, saveScreenshot, settled, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, drawSeldom, openPage, PHONE, saveScreenshot, settled, startFixture } from './open_page.mjs';
+
+drawSeldom();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
