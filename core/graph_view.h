@@ -18,15 +18,25 @@ struct GraphRobot {
   RobotState robot = {};  // without a parameter: model, meshes and name; else empty
 };
 
+/// Colours of points by a number that each of them has: RViz's Intensity and AxisColor.
+struct PointScale {
+  // x, y, z: of its place in the scene; else the name of a field of the cloud.
+  std::string by = "intensity";
+  std::optional<double> from, to;  // where the colours begin and end; unset: of the points
+  std::optional<Rgb> low, high;    // unset, both: a rainbow from red to magenta
+  bool is_inverted = false;        // the rainbow
+};
+
 /// How a message that is shown as a marker looks, where it is not as by default
 /// (server/ros/shown_messages.h).
 struct ShownStyle {
-  std::optional<Rgb> color;      // of all of it, in place of colours of its own
-  std::optional<double> alpha;   // 0..1
-  std::optional<double> size_m;  // of a point, the width of a line, the length of an arrow, the
-                                 // radius of a sphere
-  bool has_axes = false;         // of a pose: three axes, not an arrow
-  bool is_costmap = false;       // of a map: in colours of costs
+  std::optional<Rgb> color;         // of all of it, in place of colours of its own
+  std::optional<double> alpha;      // 0..1
+  std::optional<double> size_m;     // of a point, the width of a line, the length of an arrow, the
+                                    // radius of a sphere
+  std::optional<PointScale> scale;  // of points, unless they have a colour
+  bool has_axes = false;            // of a pose: three axes, not an arrow
+  bool is_costmap = false;          // of a map: in colours of costs
 };
 
 struct ShownTopic {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,26 @@ bool IsName(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '/';
   });
+}
+
+// "by=z", "from=0", "to=2.5", "low=#000000", "high=#ffffff", "rainbow=inverted" of points.
+bool TakeScale(const std::string& key, const std::string& text, PointScale& scale) {
+  if (key == "by") {
+    scale.by = text;
+    return IsFieldName(text);
+  }
+  if (key == "rainbow") {
+    scale.is_inverted = text == "inverted";
+    return scale.is_inverted;
+  }
+  if (key == "low" || key == "high") {
+    auto& color = key == "low" ? scale.low : scale.high;
+    color = ColorFromHex(text);
+    return color.has_value();
+  }
+  auto& bound = key == "from" ? scale.from : scale.to;
+  bound = options::ParseNumber(text);
+  return (key == "from" || key == "to") && bound && std::abs(*bound) <= kLargestBound;
 }
 
 // "color=#ff8800": false where it says nothing.
@@ -34,16 +55,18 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
+  if (key != "alpha" && key != "size") {
+    if (!style.scale) style.scale = PointScale{};
+    return TakeScale(key, text, *style.scale);
+  }
   const auto number = options::ParseNumber(text);
   if (!number) return false;
-  if (key == "alpha" && *number >= 0 && *number <= 1) {
+  if (key == "alpha") {
     style.alpha = *number;
-  } else if (key == "size" && *number >= kSmallestShown && *number <= kLargestShown) {
-    style.size_m = *number;
-  } else {
-    return false;
+    return *number >= 0 && *number <= 1;
   }
-  return true;
+  style.size_m = *number;
+  return *number >= kSmallestShown && *number <= kLargestShown;
 }
 
 std::optional<ShownTopic> ParseTopic(const std::string& text) {
@@ -71,6 +94,11 @@ bool IsTopicName(const std::string& text) {
 
 bool IsTopicNameOrEmpty(const std::string& text) { return text.empty() || IsTopicName(text); }
 
+bool IsFieldName(const std::string& text) {
+  constexpr std::size_t kLongest = 64;  // bytes
+  return IsName(text) && text.size() <= kLongest && text.find('/') == std::string::npos;
+}
+
 bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
 
 void ShownTopicsValue::Parse(const std::string& text) {
@@ -86,7 +114,8 @@ void ShownTopicsValue::Parse(const std::string& text) {
 
 std::string ShownTopicsValue::Expected() const {
   return "up to 16 topics with commas between, such as "
-         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes) (size in m)";
+         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes),/"
+         "scan(by=z,from=0,to=2) (size in m)";
 }
 
 }  // namespace kinescope::app

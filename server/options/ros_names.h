@@ -11,6 +11,7 @@
 namespace kinescope::app {
 
 inline constexpr std::size_t kMaxMarkerTopics = 16;
+inline constexpr double kLargestBound = 1e12;                        // of PointScale
 inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
 
 /// A topic or a parameter: it begins with a letter, / or ~.
@@ -21,7 +22,11 @@ inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
-/// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)".
+/// A field of a cloud: letters, digits and _.
+[[nodiscard]] bool IsFieldName(const std::string& text);
+/// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)"; points by
+/// a number of theirs: "/scan(by=z,from=0,to=2,low=#000000,high=#ffffff)",
+/// "/c(by=ring,rainbow=inverted)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

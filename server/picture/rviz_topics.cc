@@ -84,17 +84,70 @@ class StyleReader {
   void Remark(const std::string& what) { style_.remarks.push_back(what); }
 
   void AddColor() {
+    if (has_.color == nullptr) return AddTransformer();
+    AddColor("color=", has_.color, {1, 1, 1});
+  }
+
+  void AddColor(const char* key, const char* property, const Rgb& usual) {
+    if (!Member(properties_, property).IsDefined()) return;
+    const auto rgb = ColorOf(properties_, property, usual);
+    if (rgb) Add(key + ToHex(*rgb));
+  }
+
+  // Of points.
+  void AddTransformer() {
     const std::string transformer = TextOf(display_, "Color Transformer", "");
-    const bool is_cloud = has_.color == nullptr;
-    if (is_cloud && !transformer.empty() && transformer != "FlatColor" && transformer != "RGB8" &&
-        transformer != "Intensity") {
+    if (transformer == "FlatColor") {
+      AddColor("color=", "Color", {1, 1, 1});
+    } else if (transformer == "AxisColor") {
+      AddAxisScale();
+    } else if (transformer == "Intensity") {
+      AddIntensityScale();
+    } else if (!transformer.empty() && transformer != "RGB8") {
       Remark("Color Transformer '" + transformer +
              "' is not taken; its points have the colours of the message");
     }
-    const char* const color = is_cloud ? (transformer == "FlatColor" ? "Color" : "") : has_.color;
-    if (!Member(properties_, color).IsDefined()) return;
-    const auto rgb = ColorOf(properties_, color, {1, 1, 1});
-    if (rgb) Add("color=" + ToHex(*rgb));
+  }
+
+  void AddAxisScale() {
+    const std::string axis = TextOf(display_, "Axis", "Z");
+    Add(std::string("by=") + (axis == "X" ? "x" : axis == "Y" ? "y" : "z"));
+    const YAML::Node bounds = Member(display_, "Autocompute Value Bounds");
+    const bool is_map = bounds.IsDefined() && bounds.IsMap();
+    const bool are_of_points =
+        is_map ? BoolOf(bounds, "Value", true) : BoolOf(display_, "Autocompute Value Bounds", true);
+    if (!are_of_points) AddBounds(is_map ? bounds : display_, "Min Value", -10, "Max Value", 10);
+    if (!BoolOf(display_, "Use Fixed Frame", true)) {
+      Remark("Use Fixed Frame 'false': the axis is that of the scene");
+    }
+  }
+
+  void AddIntensityScale() {
+    const std::string channel = TextOf(display_, "Channel Name", "intensity");
+    if (!IsFieldName(channel)) {
+      Remark("Channel Name '" + channel + "' cannot be taken; its points are white");
+    } else if (channel == "x" || channel == "y" || channel == "z") {
+      Remark("Channel Name '" + channel + "': the axis is that of the scene");
+    }
+    Add("by=" + (IsFieldName(channel) ? channel : "_"));
+    if (!BoolOf(display_, "Autocompute Intensity Bounds", true)) {
+      AddBounds(display_, "Min Intensity", 0, "Max Intensity", 4096);
+    }
+    if (!BoolOf(display_, "Use rainbow", true)) {
+      Add("low=" + ToHex(ColorOf(display_, "Min Color", {0, 0, 0}).value_or(Rgb{0, 0, 0})));
+      Add("high=" + ToHex(ColorOf(display_, "Max Color", {1, 1, 1}).value_or(Rgb{1, 1, 1})));
+    } else if (BoolOf(display_, "Invert Rainbow", false)) {
+      Add("rainbow=inverted");
+    }
+  }
+
+  void AddBounds(const YAML::Node& node, const char* from, double usual_from, const char* to,
+                 double usual_to) {
+    const auto bound = [&](const char* property, double usual) {
+      return options::NumberText(NumberOf(node, property, usual, -kLargestBound, kLargestBound));
+    };
+    Add("from=" + bound(from, usual_from));
+    Add("to=" + bound(to, usual_to));
   }
 
   void AddShapeAndSize() {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "server/ros/point_colors.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/stamp.h"
 
@@ -75,6 +76,18 @@ bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
          a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors;
 }
 
+// @pre AxisOf(style)
+void ColourByPlace(SceneMarker& points, const ShownStyle& style) {
+  const int axis = AxisOf(style).value_or(0);
+  std::vector<double> values;
+  values.reserve(points.points.size());
+  for (const Eigen::Vector3d& point : points.points) {
+    values.push_back((points.pose.position + points.pose.orientation * point)[axis]);
+  }
+  points.colors.clear();
+  for (const auto& color : ColorsOf(values, style)) points.colors.push_back(FromMarker(color));
+}
+
 }  // namespace
 
 Taken<SceneMarker> ToSceneMarker(const Marker& message) {
@@ -102,7 +115,7 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
 }
 
 std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
-                                          std::int64_t monotonic_nanos) {
+                                          std::int64_t monotonic_nanos, const ShownStyle& style) {
   const auto erase = [&](auto from, auto to) {
     for (auto entry = from; entry != to; ++entry) points_ -= entry->second.shape->points.size();
     has_changed_ = has_changed_ || from != to;
@@ -151,6 +164,8 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
     entry.placed = nullptr;
   }
   entry.frame = WithoutSlash(message.header.frame_id);
+  entry.axis_style.reset();
+  if (entry.shape->type == MarkerType::kPoints && AxisOf(style)) entry.axis_style = style;
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;
   entry.is_new = true;
@@ -204,6 +219,7 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
   }
   SceneMarker placed = *entry.shape;
   placed.pose = pose;
+  if (entry.axis_style) ColourByPlace(placed, *entry.axis_style);
   entry.placed = std::make_shared<const SceneMarker>(std::move(placed));
   return true;
 }

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "core/scene_marker.h"
 #include "server/ros/force_input.h"
 
@@ -35,11 +36,13 @@ class MarkerStore {
       std::function<std::optional<urdf::Pose>(const std::string& frame, std::int64_t stamp_nanos)>;
   using Markers = std::vector<std::shared_ptr<const SceneMarker>>;
 
-  /// `topic` identifies the sender: namespaces and ids of markers are separate per topic.
+  /// `topic` identifies the sender: namespaces and ids of markers are separate per topic. Points
+  /// that `style` colours by an axis have their colours as soon as they have a place.
   /// @return why the message was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
-                                             std::int64_t monotonic_nanos);
+                                             std::int64_t monotonic_nanos,
+                                             const ShownStyle& style = {});
 
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.
@@ -63,6 +66,7 @@ class MarkerStore {
     std::shared_ptr<const SceneMarker> shape;   // its pose in `frame`
     std::shared_ptr<const SceneMarker> placed;  // in the world frame; null: not yet
     std::string frame;
+    std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
     bool is_new = true;  // the newest message was not placed yet

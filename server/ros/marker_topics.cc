@@ -98,7 +98,7 @@ void MarkerInbox::TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
   if (!markers) return Refuse(topic, markers.error());
   NameByTopic(*markers, topics_[topic].name);
   for (const visualization_msgs::Marker& marker : *markers) {
-    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos)) {
+    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos, topics_[topic].style)) {
       return Refuse(topic, *refusal);
     }
   }

@@ -1,13 +1,13 @@
 // Laser scans and point clouds as markers.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
-#include <limits>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "server/ros/point_colors.h"
 #include "server/ros/shown_messages.h"
 #include "server/ros/shown_parts.h"
 
@@ -18,53 +18,24 @@ using visualization_msgs::Marker;
 
 constexpr double kPointSize = 0.01;  // m
 
-// rviz/default_plugin/point_cloud_transformers.cpp: saturated hues through six stops; the smallest
-// value is red and the largest magenta.
-std_msgs::ColorRGBA Rainbow(double share) {
-  static constexpr std::array<std::array<float, 3>, 6> kStops = {
-      {{1, 0, 1}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}};
-  const double at = 5 * std::clamp(1 - share, 0.0, 1.0);
-  const auto first = std::min(static_cast<std::size_t>(at), std::size_t{4});
-  const auto part = static_cast<float>(at - static_cast<double>(first));
-  const auto channel = [&](std::size_t i) {
-    return (1 - part) * kStops[first][i] + part * kStops[first + 1][i];
-  };
-  std_msgs::ColorRGBA color;
-  color.r = channel(0);
-  color.g = channel(1);
-  color.b = channel(2);
-  color.a = 1;
-  return color;
-}
-
-// One colour for each value, between the smallest and the largest of them.
-std::vector<std_msgs::ColorRGBA> RainbowOf(const std::vector<double>& values) {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  std::vector<std_msgs::ColorRGBA> colors;
-  colors.reserve(values.size());
-  for (const double value : values) {
-    const bool is_known = std::isfinite(value) && most > least;
-    colors.push_back(Rainbow(is_known ? (value - least) / (most - least) : 0));
-  }
-  return colors;
-}
-
 Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style) {
   Marker marker = MarkerOf(header, 0, Marker::POINTS, In(style, Color(255, 255, 255)));
   marker.scale.x = marker.scale.y = marker.scale.z = style.size_m.value_or(kPointSize);
   return marker;
 }
 
-// What each point has, unless all have one colour.
-void Colour(Marker& points, std::vector<std_msgs::ColorRGBA> colors, const ShownStyle& style) {
-  if (style.color) return;
-  for (std_msgs::ColorRGBA& color : colors) color = In(style, color);
-  points.colors = std::move(colors);
+// The field by which points are coloured where they have no colours of their own, or by the style;
+// "": by none, since all have one colour or that of their place in the scene.
+std::string FieldOf(const ShownStyle& style) {
+  if (style.color || AxisOf(style)) return "";
+  return style.scale ? style.scale->by : "intensity";
+}
+
+// RViz takes the one for the other.
+std::vector<std::string> NamesOf(const std::string& field) {
+  if (field.empty()) return {};
+  if (field == "intensity") return {field, "intensities"};
+  return {field};
 }
 
 std::size_t StepOf(std::uint64_t points) {
@@ -76,8 +47,8 @@ class CloudField {
  public:
   // nullopt: there is none of that name, or it is not within a point.
   static std::optional<CloudField> Find(const sensor_msgs::PointCloud2& cloud,
-                                        std::initializer_list<const char*> names) {
-    for (const char* name : names) {
+                                        const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
       for (const sensor_msgs::PointField& field : cloud.fields) {
         const std::size_t size = SizeOf(field.datatype);
         if (field.name != name || size == 0 || field.count == 0) continue;
@@ -144,7 +115,8 @@ const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style) {
   Marker points = PointsOf(message.header, style);
-  const bool has_intensities = message.intensities.size() == message.ranges.size();
+  const bool has_intensities =
+      FieldOf(style) == "intensity" && message.intensities.size() == message.ranges.size();
   const std::size_t step = StepOf(message.ranges.size());
   std::vector<double> intensities;
   for (std::size_t i = 0; i < message.ranges.size(); i += step) {
@@ -156,7 +128,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
     points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
     if (has_intensities) intensities.push_back(static_cast<double>(message.intensities[i]));
   }
-  Colour(points, RainbowOf(intensities), style);
+  points.colors = ColorsOf(intensities, style);
   return OneOrNone(std::move(points));
 }
 
@@ -171,11 +143,10 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
     return refuse("no fields x, y and z of type FLOAT32");
   }
   const auto packed = CloudField::Find(message, {"rgb", "rgba"});
-  const bool has_colors = packed && packed->size() == 4;
-  const auto intensity =
-      has_colors ? std::nullopt : CloudField::Find(message, {"intensity", "intensities"});
+  const bool has_colors = packed && packed->size() == 4 && !style.color && !style.scale;
+  const auto field = has_colors ? std::nullopt : CloudField::Find(message, NamesOf(FieldOf(style)));
   Marker points = PointsOf(message.header, style);
-  std::vector<double> intensities;
+  std::vector<double> values;
   std::vector<std_msgs::ColorRGBA> colors;
   const std::uint64_t count = std::uint64_t{message.width} * message.height;
   const std::size_t step = StepOf(count);
@@ -186,21 +157,22 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
         PointAt(x->Number(point), y->Number(point), z->Number(point));
     if (!std::isfinite(place.x + place.y + place.z)) continue;  // depth cameras send many
     points.points.push_back(place);
-    if (has_colors) colors.push_back(packed->Packed(point));
-    if (intensity) intensities.push_back(intensity->Number(point));
+    if (has_colors) colors.push_back(In(style, packed->Packed(point)));
+    if (field) values.push_back(field->Number(point));
   }
-  Colour(points, has_colors ? std::move(colors) : RainbowOf(intensities), style);
+  points.colors = has_colors ? std::move(colors) : ColorsOf(values, style);
   return OneOrNone(std::move(points));
 }
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style) {
   Marker points = PointsOf(message.header, style);
+  const std::vector<std::string> names = NamesOf(FieldOf(style));
   const auto channel =
       std::find_if(message.channels.begin(), message.channels.end(), [&](const auto& each) {
-        return (each.name == "intensity" || each.name == "intensities") &&
+        return std::find(names.begin(), names.end(), each.name) != names.end() &&
                each.values.size() == message.points.size();
       });
-  std::vector<double> intensities;
+  std::vector<double> values;
   const std::size_t step = StepOf(message.points.size());
   for (std::size_t i = 0; i < message.points.size(); i += step) {
     const geometry_msgs::Point32& point = message.points[i];
@@ -209,10 +181,10 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
     if (!std::isfinite(place.x + place.y + place.z)) continue;
     points.points.push_back(place);
     if (channel != message.channels.end()) {
-      intensities.push_back(static_cast<double>(channel->values[i]));
+      values.push_back(static_cast<double>(channel->values[i]));
     }
   }
-  Colour(points, RainbowOf(intensities), style);
+  points.colors = ColorsOf(values, style);
   return OneOrNone(std::move(points));
 }
 

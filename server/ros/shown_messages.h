@@ -66,9 +66,11 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const Show
 /// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none. A size is not taken.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
                               const ShownStyle& style = {});
-/// Points of 1 cm, coloured by intensity where the scan has it.
+/// Points of 1 cm, coloured by intensity where the scan has it. By an axis of the scene only once
+/// they have a place in it (marker_input.h).
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style = {});
-/// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white.
+/// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white; with a scale by its field,
+/// or white without that.
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message,
                               const ShownStyle& style = {});
 

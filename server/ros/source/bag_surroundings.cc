@@ -128,7 +128,7 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
   has_markers_ = true;
   NameByTopic(*shown, WithSlash(message.connection->topic));
   for (const visualization_msgs::Marker& marker : *shown) {
-    if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos)) {
+    if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos, style)) {
       ++counters.rejected[message.connection->type + ": " + refusal->kind];
       return;
     }

@@ -256,23 +256,36 @@ Visualization Manager:
     - {Class: rviz/Map, Enabled: true, Topic: /l, Color Scheme: costmap, Alpha: 0.25, Draw Behind: true}
     - {Class: rviz/Map, Enabled: true, Topic: /m, Color Scheme: raw}
     - {Class: rviz/Polygon, Enabled: true, Topic: /n, Color: 25; 255; 0}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /o, Color Transformer: AxisColor, Axis: X, Use Fixed Frame: false,
+       Autocompute Value Bounds: {Max Value: 2.5, Min Value: -1, Value: false}, Invert Rainbow: true}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /p, Color Transformer: Intensity, Invert Rainbow: true}
+    - {Class: rviz/LaserScan, Enabled: true, Topic: /q, Color Transformer: Intensity, Channel Name: ring, Use rainbow: false,
+       Autocompute Intensity Bounds: false, Min Color: 0; 0; 255, Max Color: 255; 0; 0, Max Intensity: 1e15, Min Intensity: 5}
+    - {Class: rviz/PointCloud, Enabled: true, Topic: /r, Color Transformer: Intensity, Channel Name: "my,ring"}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /s, Color Transformer: MONO8}
 )");
   std::vector<std::string> styles;
-  std::string all;
+  std::string all, others;
   for (const RvizPicture::Topic& topic : picture.topics) {
     styles.push_back(topic.style);
-    all += (all.empty() ? "" : ",") + topic.name + topic.style;
+    std::string& half = styles.size() <= 14 ? all : others;
+    half += (half.empty() ? "" : ",") + topic.name + topic.style;
   }
-  EXPECT_THAT(styles, ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)",
-                                  "(color=#19ff00)", "(shape=axes,size=0.2)",
-                                  "(color=#00ff80,size=0.03)", "", "", "(color=#010203)",
-                                  "(size=0.5)", "(size=10)", "(color=#0000ff,alpha=0.5,size=0.75)",
-                                  "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)"));
+  EXPECT_THAT(
+      styles,
+      ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
+                  "(shape=axes,size=0.2)", "(color=#00ff80,size=0.03)", "", "(by=z)",
+                  "(color=#010203)", "(size=0.5)", "(size=10)",
+                  "(color=#0000ff,alpha=0.5,size=0.75)", "(alpha=0.25,scheme=costmap)", "",
+                  "(color=#19ff00)", "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
+                  "(by=ring,from=5,to=1e+12,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark : {"'': Covariance is not drawn", "Draw Behind 'true': it is drawn in",
-                             "Color Scheme 'raw' is drawn as 'map'"}) {
+                             "Color Scheme 'raw' is drawn as 'map'",
+                             "Use Fixed Frame 'false': the axis is that of the scene",
+                             "Channel Name 'my,ring' cannot be taken; its points are white",
+                             "Color Transformer 'MONO8' is not taken"}) {
     EXPECT_THAT(picture.remarks, Contains(HasSubstr(remark)));
   }
-  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Color Transformer 'AxisColor' is not taken")));
   ShownTopicsValue value;
   value.Parse(all);
   ASSERT_EQ(value->size(), 14u);
@@ -282,12 +295,20 @@ Visualization Manager:
   EXPECT_EQ((*value)[0].style.size_m, 0.1);
   EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
   EXPECT_EQ((*value)[8].name, "/i");
+  value.Parse(others);
+  ASSERT_EQ(value->size(), 5u);
+  EXPECT_EQ((*value)[0].style.scale->by, "x");
+  EXPECT_EQ((*value)[0].style.scale->from, -1);
+  EXPECT_TRUE((*value)[1].style.scale->is_inverted);
+  EXPECT_EQ((*value)[2].style.scale->to, 1e12);
+  EXPECT_EQ(((*value)[2].style.scale->low), (Rgb{0, 0, 1}));
 }
 
 TEST(RvizFile, RefusesStylesThatSayNothing) {
   for (const char* bad :
        {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)", "/a(alpha=2)",
-        "/a(shape=cube)", "/a(scheme=raw)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
+        "/a(shape=cube)", "/a(scheme=raw)", "/a(by=)", "/a(by=a/b)", "/a(from=low)", "/a(to=1e13)",
+        "/a(low=blue)", "/a(rainbow=no)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
     ShownTopicsValue value;
     EXPECT_THROW(value.Parse(bad), options::BadValue) << bad;
   }

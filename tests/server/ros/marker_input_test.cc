@@ -173,6 +173,36 @@ TEST(MarkerStore, MovesOnlyLockedMarkersWithTheirFrame) {
   EXPECT_FALSE(store.Update(0, cart.Find())) << "nothing has moved";
 }
 
+TEST(MarkerStore, ColoursPointsByTheirPlaceInTheScene) {
+  MarkerStore store;
+  Marker points = Of(Marker::POINTS);
+  points.colors.clear();
+  points.frame_locked = 1;
+  ShownStyle style;
+  style.scale = PointScale{};
+  style.scale->by = "z";
+  style.scale->from = 0;
+  style.scale->to = 10;
+  style.alpha = 0.5;
+  EXPECT_FALSE(store.Apply(0, points, 0, style));
+  EXPECT_FALSE(store.Apply(1, points, 0));
+  // The cart stands on its end: its x points up.
+  urdf::Pose cart{
+      {0, 0, 0},
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ())};
+  const auto find = [&](const std::string&, std::int64_t) { return std::optional(cart); };
+  ASSERT_TRUE(store.Update(0, find));
+  const auto& colors = store.markers().at(0)->colors;
+  ASSERT_EQ(colors.size(), 6u);
+  EXPECT_LT((colors.at(0) - Eigen::Vector4d(1, 0, 0, 0.5)).norm(), 1e-6) << "0 m: red";
+  EXPECT_LT((colors.at(4) - Eigen::Vector4d(0, 1, 0, 0.5)).norm(), 1e-6) << "4 of 10 m: green";
+  EXPECT_TRUE(store.markers().at(1)->colors.empty()) << "that topic has no scale";
+  cart.position.z() = 10;
+  ASSERT_TRUE(store.Update(kNanosPerSecond, find));
+  EXPECT_LT((store.markers().at(0)->colors.at(0) - Eigen::Vector4d(1, 0, 1, 0.5)).norm(), 1e-6)
+      << "10 m: magenta";
+}
+
 TEST(MarkerStore, WaitsForAnUnknownFrameAndNamesItOnce) {
   MarkerStore store;
   Cart cart;

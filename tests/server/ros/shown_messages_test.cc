@@ -203,6 +203,57 @@ TEST(ShownMessages, ACloudHasItsColoursOrThoseOfItsIntensities) {
   EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{255, 255, 255}));
 }
 
+std::vector<std::array<int, 3>> ColorsOfCloud(const sensor_msgs::PointCloud2& cloud,
+                                              const PointScale& scale) {
+  ShownStyle style;
+  style.scale = scale;
+  const ShownMarkers markers = ShownOf(cloud, style);
+  std::vector<std::array<int, 3>> colors;
+  for (const auto& color : markers.at(0).colors) colors.push_back(RgbOf(color));
+  return colors;
+}
+
+// Worked by hand from RViz's formulas: share = (value - least) / (most - least), the least red.
+TEST(ShownMessages, ACloudHasTheColoursOfAScale) {
+  using Colors = std::vector<std::array<int, 3>>;
+  auto cloud = CloudOf(3, "ring", sensor_msgs::PointField::UINT32);
+  for (std::uint32_t i = 0; i < 3; ++i) Put(cloud, i, 3, 10 * i);
+  PointScale scale;
+  scale.by = "ring";
+  EXPECT_EQ(ColorsOfCloud(cloud, scale), (Colors{{255, 0, 0}, {0, 255, 128}, {255, 0, 255}}));
+  scale.is_inverted = true;
+  EXPECT_EQ(ColorsOfCloud(cloud, scale), (Colors{{255, 0, 255}, {0, 255, 128}, {255, 0, 0}}));
+  scale.low = Rgb{0, 0, 0};
+  EXPECT_EQ(ColorsOfCloud(cloud, scale), (Colors{{0, 0, 0}, {128, 128, 128}, {255, 255, 255}}));
+  scale.high = Rgb{1, 0, 0};
+  scale.from = 10;
+  scale.to = 50;
+  EXPECT_EQ(ColorsOfCloud(cloud, scale), (Colors{{0, 0, 0}, {0, 0, 0}, {64, 0, 0}}));
+  scale.by = "intensity";
+  EXPECT_EQ(ColorsOfCloud(cloud, scale), Colors{}) << "white, as in RViz: it has no such field";
+
+  PointScale same;
+  same.by = "ring";
+  for (std::uint32_t i = 0; i < 3; ++i) Put(cloud, i, 3, std::uint32_t{7});
+  EXPECT_EQ(ColorsOfCloud(cloud, same), (Colors{{255, 0, 0}, {255, 0, 0}, {255, 0, 0}}));
+}
+
+TEST(ShownMessages, AScaleComesBeforeColoursOfTheCloudAndAColourBeforeBoth) {
+  auto cloud = CloudOf(2, "rgb", sensor_msgs::PointField::UINT32);
+  Put(cloud, 1, 3, std::uint32_t{0x00102030});
+  PointScale scale;
+  scale.by = "rgb";
+  EXPECT_EQ(ColorsOfCloud(cloud, scale).at(1), (std::array<int, 3>{255, 0, 255}));
+  scale.by = "z";
+  EXPECT_TRUE(ColorsOfCloud(cloud, scale).empty()) << "known when they have a place";
+  ShownStyle style;
+  style.scale = scale;
+  style.color = Rgb{0, 1, 0};
+  const ShownMarkers markers = ShownOf(cloud, style);
+  EXPECT_TRUE(markers.at(0).colors.empty());
+  EXPECT_EQ(RgbOf(markers.at(0).color), (std::array<int, 3>{0, 255, 0}));
+}
+
 TEST(ShownMessages, OfALargeCloudEveryNthPointIsShown) {
   const ShownMarkers markers = ShownOf(CloudOf(10'000, "intensity", 7));
   ASSERT_THAT(markers, SizeIs(1));
