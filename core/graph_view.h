@@ -2,6 +2,7 @@
 /// appears here.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,22 @@ struct GraphRobot {
 
 /// Colours of points by a number that each of them has: RViz's Intensity and AxisColor.
 struct PointScale {
-  // x, y, z: of its place in the scene; else the name of a field of the cloud.
-  std::string by = "intensity";
+  // x, y, z: of its place in the scene; else the name of a field; "": intensity, or what the
+  // message measures.
+  std::string by;
   std::optional<double> from, to;  // where the colours begin and end; unset: of the points
   std::optional<Rgb> low, high;    // unset, both: a rainbow from red to magenta
   bool is_inverted = false;        // the rainbow
+};
+
+/// Arrows of a wrench.
+struct WrenchArrows {
+  double force_m = 0.001, torque_m = 0.01;  // their lengths for 1 N and for 1 N·m; 0: none
+  std::optional<Rgb> torque_color;
+  /// RViz's "Arrow Width", of which a tenth is the diameter of the shaft; unset: as arrows of
+  /// ground reaction forces.
+  std::optional<double> width_m;
+  bool hides_small = true;  // with a width: arrows whose shaft is shorter than that
 };
 
 /// How a message that is shown as a marker looks, where it is not as by default
@@ -36,8 +48,13 @@ struct ShownStyle {
                                     // radius of a sphere
   std::optional<PointScale> scale;  // of points, unless they have a colour
   bool has_axes = false;            // of a pose: three axes, not an arrow
+  bool has_spheres = false;         // of points, if they are few: spheres, not cubes
   bool is_costmap = false;          // of a map: in colours of costs
+  WrenchArrows wrench = {};
 };
+
+/// As many may be named.
+inline constexpr std::size_t kMostShownTopics = 64;
 
 struct ShownTopic {
   std::string name;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,7 +36,33 @@ bool TakeScale(const std::string& key, const std::string& text, PointScale& scal
   }
   auto& bound = key == "from" ? scale.from : scale.to;
   bound = options::ParseNumber(text);
-  return (key == "from" || key == "to") && bound && std::abs(*bound) <= kLargestBound;
+  return bound && std::abs(*bound) <= kLargestBound;
+}
+
+// "force=0.002", "torque=0", "torque_color=#255fff", "width=0.3", "small=shown" of a wrench.
+bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& arrows) {
+  if (key == "torque_color") {
+    arrows.torque_color = ColorFromHex(text);
+    return arrows.torque_color.has_value();
+  }
+  if (key == "small") {
+    arrows.hides_small = text != "shown";
+    return text == "shown" || text == "hidden";
+  }
+  const auto metres = options::ParseNumber(text);
+  if (!metres) return false;
+  if (key == "width") {
+    arrows.width_m = *metres;
+    return *metres >= kSmallestShown && *metres <= kLargestShown;
+  }
+  (key == "force" ? arrows.force_m : arrows.torque_m) = *metres;
+  return *metres >= 0 && *metres <= kLongestArrow;
+}
+
+bool TakeShape(const std::string& text, ShownStyle& style) {
+  style.has_axes = text == "axes";
+  style.has_spheres = text == "spheres";
+  return style.has_axes || style.has_spheres || text == "arrow" || text == "cubes";
 }
 
 // "color=#ff8800": false where it says nothing.
@@ -43,28 +70,31 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   const auto parts = options::SplitAtLast(item, '=');
   if (!parts) return false;
   const auto& [key, text] = *parts;
+  const auto is_one_of = [&key = key](std::initializer_list<const char*> keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
   if (key == "color") {
     style.color = ColorFromHex(text);
     return style.color.has_value();
   }
-  if (key == "shape") {
-    style.has_axes = text == "axes";
-    return style.has_axes || text == "arrow";
-  }
+  if (key == "shape") return TakeShape(text, style);
   if (key == "scheme") {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
-  if (key != "alpha" && key != "size") {
+  if (is_one_of({"force", "torque", "torque_color", "width", "small"})) {
+    return TakeArrows(key, text, style.wrench);
+  }
+  if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
     if (!style.scale) style.scale = PointScale{};
     return TakeScale(key, text, *style.scale);
   }
   const auto number = options::ParseNumber(text);
-  if (!number) return false;
-  if (key == "alpha") {
+  if (key == "alpha" && number) {
     style.alpha = *number;
     return *number >= 0 && *number <= 1;
   }
+  if (key != "size" || !number) return false;
   style.size_m = *number;
   return *number >= kSmallestShown && *number <= kLargestShown;
 }
@@ -105,7 +135,7 @@ void ShownTopicsValue::Parse(const std::string& text) {
   std::vector<ShownTopic> topics;
   for (const std::string& item : options::SplitItems(text)) {
     std::optional<ShownTopic> topic = ParseTopic(item);
-    if (!topic || topics.size() == kMaxMarkerTopics) RefuseText();
+    if (!topic || topics.size() == kMostShownTopics) RefuseText();
     topics.push_back(std::move(*topic));
   }
   value_ = std::move(topics);
@@ -113,7 +143,7 @@ void ShownTopicsValue::Parse(const std::string& text) {
 }
 
 std::string ShownTopicsValue::Expected() const {
-  return "up to 16 topics with commas between, such as "
+  return "up to 64 topics with commas between, such as "
          "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes),/"
          "scan(by=z,from=0,to=2) (size in m)";
 }

@@ -10,9 +10,9 @@
 
 namespace kinescope::app {
 
-inline constexpr std::size_t kMaxMarkerTopics = 16;
 inline constexpr double kLargestBound = 1e12;                        // of PointScale
 inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
+inline constexpr double kLongestArrow = 1000;                        // m for 1 N or 1 N·m
 
 /// A topic or a parameter: it begins with a letter, / or ~.
 [[nodiscard]] bool IsTopicName(const std::string& text);

@@ -67,9 +67,9 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
       }
     } else if (std::find(names.begin(), names.end(), topic.name) != names.end()) {
       continue;
-    } else if (names.size() == kMaxMarkerTopics) {
+    } else if (names.size() == kMostShownTopics) {
       spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display,
-                   kMaxMarkerTopics);
+                   kMostShownTopics);
     } else {
       names.push_back(topic.name);
       items.push_back(topic.name + topic.style);

@@ -36,7 +36,12 @@ constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/LaserScan", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
     {"rviz/PointCloud", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
     {"rviz/PointCloud2", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/Temperature", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/Illuminance", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/FluidPressure", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    {"rviz/RelativeHumidity", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
     {"rviz/WrenchStamped", "Force Color"}};
+constexpr const char* kWrenchDisplay = "rviz/WrenchStamped";
 
 // Of any of them: what makes a difference if it is not as usual.
 struct Untaken {
@@ -74,6 +79,7 @@ class StyleReader {
     }
     AddShapeAndSize();
     if (kind_ == "rviz/Map") AddScheme();
+    if (kind_ == kWrenchDisplay) AddArrows();
     NameUntaken();
     if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
     return std::move(style_);
@@ -168,10 +174,27 @@ class StyleReader {
     } else if (poses != "None") {
       Remark("Pose Style '" + poses + "': poses along the line are not drawn");
     }
+    if (has_.color == nullptr && TextOf(display_, "Style", "") == "Spheres") Add("shape=spheres");
     if (shape == "Arrow (3D)") Remark("Shape 'Arrow (3D)' is drawn as flat arrows");
     if (size >= kSmallestShown) {
       Add("size=" + options::NumberText(std::min(size, kLargestShown)));
     }
+  }
+
+  void AddArrows() {
+    constexpr double kWholeArrow =
+        1.3;  // of one with a shaft of 1, of which the file has the scale
+    const auto number = [&](const char* property, double usual, double least, double most) {
+      return NumberOf(display_, property, usual, least, most);
+    };
+    const double force = number("Force Arrow Scale", 2, 0, kLongestArrow / kWholeArrow);
+    const double torque = number("Torque Arrow Scale", 2, 0, kLongestArrow / kWholeArrow);
+    Add("force=" + options::NumberText(kWholeArrow * force));
+    Add("torque=" + options::NumberText(kWholeArrow * torque));
+    Add("width=" + options::NumberText(number("Arrow Width", 0.5, kSmallestShown, kLargestShown)));
+    AddColor("torque_color=", "Torque Color", {0.8, 0.8, 0.2});
+    if (!BoolOf(display_, "Hide Small Values", true)) Add("small=shown");
+    if (torque > 0) Remark("the ring around the arrow of a torque is not drawn");
   }
 
   void AddScheme() {

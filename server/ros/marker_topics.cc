@@ -14,7 +14,6 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::size_t kMaxTopics = 16;
 // Each message may be the only one of its marker, so none should be lost while a sample is
 // processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
@@ -31,9 +30,9 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
     }
     topic.name = ros::names::resolve(topic.name);
   }
-  if (topics.size() > kMaxTopics) {
-    throw UsageError(
-        fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(), kMaxTopics));
+  if (topics.size() > kMostShownTopics) {
+    throw UsageError(fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(),
+                                 kMostShownTopics));
   }
   return topics;
 }

@@ -30,7 +30,7 @@ namespace kinescope::ros_bridge {
 
 class MarkerInbox {
  public:
-  /// At most 16 topics. @throws UsageError with an invalid name. @pre InitRos was called.
+  /// At most kMostShownTopics. @throws UsageError with an invalid name. @pre InitRos was called.
   MarkerInbox(std::vector<ShownTopic> topics, std::string reference_frame,
               std::shared_ptr<const TfTree> tf);
 

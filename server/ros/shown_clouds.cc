@@ -18,17 +18,11 @@ using visualization_msgs::Marker;
 
 constexpr double kPointSize = 0.01;  // m
 
-Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style) {
-  Marker marker = MarkerOf(header, 0, Marker::POINTS, In(style, Color(255, 255, 255)));
-  marker.scale.x = marker.scale.y = marker.scale.z = style.size_m.value_or(kPointSize);
-  return marker;
-}
-
 // The field by which points are coloured where they have no colours of their own, or by the style;
 // "": by none, since all have one colour or that of their place in the scene.
 std::string FieldOf(const ShownStyle& style) {
   if (style.color || AxisOf(style)) return "";
-  return style.scale ? style.scale->by : "intensity";
+  return style.scale && !style.scale->by.empty() ? style.scale->by : "intensity";
 }
 
 // RViz takes the one for the other.
@@ -114,7 +108,7 @@ const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
 }  // namespace
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style) {
-  Marker points = PointsOf(message.header, style);
+  Marker points = PointsOf(message.header, style, kPointSize);
   const bool has_intensities =
       FieldOf(style) == "intensity" && message.intensities.size() == message.ranges.size();
   const std::size_t step = StepOf(message.ranges.size());
@@ -129,7 +123,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
     if (has_intensities) intensities.push_back(static_cast<double>(message.intensities[i]));
   }
   points.colors = ColorsOf(intensities, style);
-  return OneOrNone(std::move(points));
+  return PointsOrNone(std::move(points));
 }
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const ShownStyle& style) {
@@ -145,7 +139,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
   const auto packed = CloudField::Find(message, {"rgb", "rgba"});
   const bool has_colors = packed && packed->size() == 4 && !style.color && !style.scale;
   const auto field = has_colors ? std::nullopt : CloudField::Find(message, NamesOf(FieldOf(style)));
-  Marker points = PointsOf(message.header, style);
+  Marker points = PointsOf(message.header, style, kPointSize);
   std::vector<double> values;
   std::vector<std_msgs::ColorRGBA> colors;
   const std::uint64_t count = std::uint64_t{message.width} * message.height;
@@ -161,11 +155,11 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
     if (field) values.push_back(field->Number(point));
   }
   points.colors = has_colors ? std::move(colors) : ColorsOf(values, style);
-  return OneOrNone(std::move(points));
+  return PointsOrNone(std::move(points));
 }
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style) {
-  Marker points = PointsOf(message.header, style);
+  Marker points = PointsOf(message.header, style, kPointSize);
   const std::vector<std::string> names = NamesOf(FieldOf(style));
   const auto channel =
       std::find_if(message.channels.begin(), message.channels.end(), [&](const auto& each) {
@@ -185,7 +179,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
     }
   }
   points.colors = ColorsOf(values, style);
-  return OneOrNone(std::move(points));
+  return PointsOrNone(std::move(points));
 }
 
 }  // namespace kinescope::ros_bridge

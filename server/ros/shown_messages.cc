@@ -43,8 +43,8 @@ ShownType TypeOf() {
           OfBytes<Message>};
 }
 
-const std::array<ShownType, 13>& ShownTypes() {
-  static const std::array<ShownType, 13> kTypes = {
+const std::array<ShownType, 17>& ShownTypes() {
+  static const std::array<ShownType, 17> kTypes = {
       TypeOf<geometry_msgs::PointStamped>(),
       TypeOf<geometry_msgs::PoseStamped>(),
       TypeOf<geometry_msgs::PoseWithCovarianceStamped>(),
@@ -57,7 +57,11 @@ const std::array<ShownType, 13>& ShownTypes() {
       TypeOf<nav_msgs::OccupancyGrid>(),
       TypeOf<sensor_msgs::LaserScan>(),
       TypeOf<sensor_msgs::PointCloud>(),
-      TypeOf<sensor_msgs::PointCloud2>()};
+      TypeOf<sensor_msgs::PointCloud2>(),
+      TypeOf<sensor_msgs::Temperature>(),
+      TypeOf<sensor_msgs::Illuminance>(),
+      TypeOf<sensor_msgs::FluidPressure>(),
+      TypeOf<sensor_msgs::RelativeHumidity>()};
   return kTypes;
 }
 
@@ -79,7 +83,8 @@ void AddAxes(const geometry_msgs::Pose& pose, double length, double width, const
   lines.scale.x = width;
   const Eigen::Vector3d at = PositionOf(pose);
   const Eigen::Matrix3d axes = length * TurnOf(pose).toRotationMatrix();
-  const ShownStyle translucent = {std::nullopt, style.alpha, std::nullopt, false};
+  ShownStyle translucent;
+  translucent.alpha = style.alpha;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d tip = at + axes.col(i);
     lines.points.push_back(PointAt(at.x(), at.y(), at.z()));
@@ -124,16 +129,37 @@ ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose&
   return {arrow};
 }
 
+// RViz's arrow: a shaft of the length 1 and a head of 0.3.
+constexpr double kWholeArrow = 1.3;
+
+// Its length is not 0.
 Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
-               const geometry_msgs::Vector3& vector, double metres_per_unit) {
+               const Eigen::Vector3d& to, const std::optional<double>& width) {
   Marker arrow = MarkerOf(header, id, Marker::ARROW, color);
-  const double x = metres_per_unit * vector.x, y = metres_per_unit * vector.y,
-               z = metres_per_unit * vector.z;
-  arrow.points = {PointAt(0, 0, 0), PointAt(x, y, z)};
+  arrow.points = {PointAt(0, 0, 0), PointAt(to.x(), to.y(), to.z())};
+  if (width) {
+    arrow.scale.x = 0.1 * *width;
+    arrow.scale.y = 0.2 * *width;
+    arrow.scale.z = to.norm() * (1 - 1 / kWholeArrow);
+    return arrow;
+  }
   arrow.scale.x = 0.018;  // diameters, as arrows of ground reaction forces (force_arrows)
   arrow.scale.y = 0.048;
-  arrow.scale.z = std::min(0.06, 0.6 * std::hypot(x, y, z));
+  arrow.scale.z = std::min(0.06, 0.6 * to.norm());
   return arrow;
+}
+
+// @param least  N or N·m, of an arrow without a width
+Marker ArrowOrNone(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
+                   const geometry_msgs::Vector3& vector, double metres, double least,
+                   const WrenchArrows& arrows) {
+  const Eigen::Vector3d value(vector.x, vector.y, vector.z), to = metres * value;
+  const bool is_small = arrows.width_m
+                            ? arrows.hides_small && to.norm() <= kWholeArrow * *arrows.width_m
+                            : value.norm() < least;
+  // What is not finite goes on, so that it is named as for other markers.
+  if (is_small || to.norm() == 0) return Without(header, id);
+  return ArrowOf(header, id, color, to, arrows.width_m);
 }
 
 }  // namespace
@@ -222,17 +248,13 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
                               const ShownStyle& style) {
   constexpr double kLeastForce = 5, kLeastTorque = 0.5;  // N, N·m
-  constexpr double kMetresPerNewton = 1e-3, kMetresPerNewtonMetre = 1e-2;
-  const auto shown = [&](int id, const geometry_msgs::Vector3& vector, double least, double metres,
-                         const std_msgs::ColorRGBA& color) {
-    const double length = std::hypot(vector.x, vector.y, vector.z);
-    // What is not finite goes on, so that it is named as for other markers.
-    if (length < least) return Without(message.header, id);
-    return ArrowOf(message.header, id, In(style, color), vector, metres);
-  };
-  return ShownMarkers{
-      shown(0, message.wrench.force, kLeastForce, kMetresPerNewton, Color(204, 51, 51)),
-      shown(1, message.wrench.torque, kLeastTorque, kMetresPerNewtonMetre, Color(204, 204, 51))};
+  const WrenchArrows& arrows = style.wrench;
+  ShownStyle of_torque = style;
+  if (arrows.torque_color) of_torque.color = arrows.torque_color;
+  return ShownMarkers{ArrowOrNone(message.header, 0, In(style, Color(204, 51, 51)),
+                                  message.wrench.force, arrows.force_m, kLeastForce, arrows),
+                      ArrowOrNone(message.header, 1, In(of_torque, Color(204, 204, 51)),
+                                  message.wrench.torque, arrows.torque_m, kLeastTorque, arrows)};
 }
 
 ToMarkersOfBytes FindShownMessage(const std::string& md5sum) {

@@ -14,9 +14,13 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Illuminance.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/RelativeHumidity.h>
+#include <sensor_msgs/Temperature.h>
 #include <visualization_msgs/Marker.h>
 
 #include <cstdint>
@@ -62,8 +66,9 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::GridCells& message, const ShownSty
 /// Cells in the colours of RViz's scheme "map", 1 mm above their frame; of a map that has more than
 /// kMostMapRectangles of equal cells, 2, 4, 8, ... of them are shown as one: the most occupied.
 Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const ShownStyle& style = {});
-/// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m.
-/// RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5 N·m: none. A size is not taken.
+/// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m,
+/// unless the style says otherwise; RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5
+/// N·m: none. With a width: shaft and head as RViz has them. A size is not taken.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
                               const ShownStyle& style = {});
 /// Points of 1 cm, coloured by intensity where the scan has it. By an axis of the scene only once
@@ -75,6 +80,17 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message,
                               const ShownStyle& style = {});
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style = {});
+
+/// A sphere of 0.1 m, or a cube of the size of the style, at the origin of its frame: in the colour
+/// of the value, by default between the bounds of RViz's display of the type.
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::Temperature& message,
+                              const ShownStyle& style = {});
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::Illuminance& message,
+                              const ShownStyle& style = {});
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::FluidPressure& message,
+                              const ShownStyle& style = {});
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::RelativeHumidity& message,
+                              const ShownStyle& style = {});
 
 /// The markers of serialised bytes; or why there are none.
 using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes,

@@ -47,6 +47,19 @@ Marker Without(const std_msgs::Header& header, int id) {
   return marker;
 }
 
+Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style, double size) {
+  Marker points = MarkerOf(header, 0, style.has_spheres ? Marker::SPHERE_LIST : Marker::POINTS,
+                           In(style, Color(255, 255, 255)));
+  points.scale.x = points.scale.y = points.scale.z = style.size_m.value_or(size);
+  return points;
+}
+
+ShownMarkers PointsOrNone(Marker points) {
+  constexpr std::size_t kMostSpheres = 500;  // they have ten times the triangles of cubes
+  if (points.points.size() > kMostSpheres) points.type = Marker::POINTS;
+  return OneOrNone(std::move(points));
+}
+
 geometry_msgs::Point PointAt(double x, double y, double z) {
   geometry_msgs::Point point;
   point.x = x;

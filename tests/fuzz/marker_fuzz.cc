@@ -65,11 +65,17 @@ template <class Message>
 void CheckShown(const std::vector<std::uint8_t>& bytes) {
   const auto convert = FindShownMessage(ros::message_traits::md5sum<Message>());
   KINESCOPE_CHECK(convert != nullptr);
-  const auto markers = convert(bytes, {});
-  if (markers) {
-    CheckMarkers(*markers);
-  } else {
-    KINESCOPE_CHECK(!markers.error().text.empty());
+  ShownStyle scaled;
+  scaled.scale = PointScale{};
+  scaled.scale->by = "ring";
+  scaled.has_spheres = true;
+  for (const ShownStyle& style : {ShownStyle{}, scaled}) {
+    const auto markers = convert(bytes, style);
+    if (markers) {
+      CheckMarkers(*markers);
+    } else {
+      KINESCOPE_CHECK(!markers.error().text.empty());
+    }
   }
 }
 
@@ -88,7 +94,7 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 21) {
+  switch (data[0] % 25) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -117,7 +123,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 17: CheckShown<nav_msgs::OccupancyGrid>(bytes); break;
     case 18: CheckShown<sensor_msgs::PointCloud>(bytes); break;
     case 19: CheckImage<sensor_msgs::Image>(bytes); break;
-    default: CheckImage<sensor_msgs::CompressedImage>(bytes); break;
+    case 20: CheckImage<sensor_msgs::CompressedImage>(bytes); break;
+    case 21: CheckShown<sensor_msgs::Temperature>(bytes); break;
+    case 22: CheckShown<sensor_msgs::Illuminance>(bytes); break;
+    case 23: CheckShown<sensor_msgs::FluidPressure>(bytes); break;
+    default: CheckShown<sensor_msgs::RelativeHumidity>(bytes); break;
   }
   return 0;
 }

@@ -275,7 +275,7 @@ Visualization Manager:
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
                   "(shape=axes,size=0.2)", "(color=#00ff80,size=0.03)", "", "(by=z)",
-                  "(color=#010203)", "(size=0.5)", "(size=10)",
+                  "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)", "(size=10)",
                   "(color=#0000ff,alpha=0.5,size=0.75)", "(alpha=0.25,scheme=costmap)", "",
                   "(color=#19ff00)", "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1e+12,low=#0000ff,high=#ff0000)", "(by=_)", ""));
@@ -304,11 +304,62 @@ Visualization Manager:
   EXPECT_EQ(((*value)[2].style.scale->low), (Rgb{0, 0, 1}));
 }
 
+// As human-dynamics-estimation shows what loads a person: the effort of each joint as the colour of
+// a sphere, and the forces on feet and hands.
+TEST(RvizFile, HasValuesAsSpheresAndTheArrowsOfWrenches) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/Temperature, Enabled: true, Topic: /effort, Channel Name: temperature, Color Transformer: Intensity,
+       Autocompute Intensity Bounds: false, Min Intensity: 0, Max Intensity: 30, Use rainbow: false, Invert Rainbow: true,
+       Min Color: 138; 226; 52, Max Color: 239; 41; 41, Style: Spheres, Size (m): 0.15}
+    - {Class: rviz/WrenchStamped, Enabled: true, Topic: /foot, Force Color: 255; 239; 6, Torque Color: 37; 95; 255,
+       Force Arrow Scale: 0.5, Torque Arrow Scale: 0, Arrow Width: 0.3, Hide Small Values: false}
+    - {Class: rviz/WrenchStamped, Enabled: true, Name: Hand, Topic: /hand, Force Arrow Scale: -1, Arrow Width: 1e9}
+)");
+  ASSERT_EQ(picture.topics.size(), 3u);
+  EXPECT_EQ(picture.topics[0].style,
+            "(by=temperature,from=0,to=30,low=#8ae234,high=#ef2929,shape=spheres,size=0.15)");
+  EXPECT_EQ(picture.topics[1].style,
+            "(color=#ffef06,force=0.65,torque=0,width=0.3,torque_color=#255fff,small=shown)");
+  EXPECT_EQ(picture.topics[2].style, "(force=0,torque=2.6,width=10)");
+  EXPECT_THAT(picture.remarks,
+              Contains(HasSubstr("'Hand': the ring around the arrow of a torque")));
+  EXPECT_THAT(picture.remarks, Not(Contains(HasSubstr("Temperature"))));
+  ShownTopicsValue value;
+  value.Parse(picture.topics[0].name + picture.topics[0].style + "," + picture.topics[1].name +
+              picture.topics[1].style);
+  ASSERT_EQ(value->size(), 2u);
+  EXPECT_TRUE((*value)[0].style.has_spheres);
+  EXPECT_EQ((*value)[0].style.scale->by, "temperature");
+  EXPECT_EQ((*value)[1].style.wrench.force_m, 0.65);
+  EXPECT_FALSE((*value)[1].style.wrench.hides_small);
+}
+
 TEST(RvizFile, RefusesStylesThatSayNothing) {
-  for (const char* bad :
-       {"/a(", "/a()b", "/a(color=red)", "/a(size=0)", "/a(size=11)", "/a(alpha=2)",
-        "/a(shape=cube)", "/a(scheme=raw)", "/a(by=)", "/a(by=a/b)", "/a(from=low)", "/a(to=1e13)",
-        "/a(low=blue)", "/a(rainbow=no)", "/a(width=1)", "/a(color)", "(size=1)", "/a b"}) {
+  for (const char* bad : {"/a(",
+                          "/a()b",
+                          "/a(color=red)",
+                          "/a(size=0)",
+                          "/a(size=11)",
+                          "/a(alpha=2)",
+                          "/a(shape=cube)",
+                          "/a(scheme=raw)",
+                          "/a(by=)",
+                          "/a(by=a/b)",
+                          "/a(from=low)",
+                          "/a(to=1e13)",
+                          "/a(low=blue)",
+                          "/a(force=-1)",
+                          "/a(force=2000)",
+                          "/a(width=0)",
+                          "/a(torque_color=5)",
+                          "/a(small=no)",
+                          "/a(rainbow=no)",
+                          "/a(width=1)",
+                          "/a(color)",
+                          "(size=1)",
+                          "/a b"}) {
     ShownTopicsValue value;
     EXPECT_THROW(value.Parse(bad), options::BadValue) << bad;
   }

@@ -135,6 +135,66 @@ TEST(ShownMessages, AWrenchIsAnArrowForItsForceAndOneForItsMoment) {
   EXPECT_EQ(markers.at(1).action, Marker::ADD);
 }
 
+TEST(ShownMessages, AWrenchHasTheArrowsOfRvizIfItsScalesAreGiven) {
+  auto wrench = InFrame<geometry_msgs::WrenchStamped>();
+  wrench.wrench.force.z = 700;
+  wrench.wrench.torque.x = -20;
+  ShownStyle style;
+  style.color = Rgb{1, 1, 0};
+  style.wrench.force_m = 1.3 * 0.002;
+  style.wrench.torque_m = 0;
+  style.wrench.width_m = 0.3;
+  style.wrench.torque_color = Rgb{0, 0, 1};
+  ShownMarkers markers = ShownOf(wrench, style);
+  EXPECT_NEAR(markers.at(0).points.at(1).z, 1.3 * 1.4, 1e-12) << "shaft and head";
+  EXPECT_NEAR(markers[0].scale.z, 0.3 * 1.4, 1e-12);
+  EXPECT_NEAR(markers[0].scale.x, 0.03, 1e-12);
+  EXPECT_EQ(markers.at(1).action, Marker::DELETE);
+  style.wrench.torque_m = 1.3 * 0.01;  // a shaft of 0.2 m, which is less than the width
+  EXPECT_EQ(ShownOf(wrench, style).at(1).action, Marker::DELETE);
+  style.wrench.hides_small = false;
+  markers = ShownOf(wrench, style);
+  EXPECT_NEAR(markers.at(1).points.at(1).x, -0.26, 1e-12);
+  EXPECT_EQ(RgbOf(markers[1].color), (std::array<int, 3>{0, 0, 255}));
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{255, 255, 0}));
+  wrench.wrench.torque.x = 0;
+  EXPECT_EQ(ShownOf(wrench, style).at(1).action, Marker::DELETE) << "it has no direction";
+}
+
+// As human-dynamics-estimation shows the efforts of joints: a sphere at each, green to red.
+TEST(ShownMessages, AMeasuredValueIsASphereInItsColour) {
+  auto effort = InFrame<sensor_msgs::Temperature>();
+  effort.temperature = 45;
+  ShownStyle style;
+  style.has_spheres = true;
+  style.size_m = 0.15;
+  style.scale = PointScale{"temperature", 0, 90, Rgb{0, 1, 0}, Rgb{1, 0, 0}};
+  ShownMarkers markers = ShownOf(effort, style);
+  ASSERT_THAT(markers, SizeIs(1));
+  EXPECT_EQ(markers[0].type, Marker::SPHERE_LIST);
+  EXPECT_EQ(markers[0].header.frame_id, "cart");
+  ASSERT_THAT(markers[0].points, SizeIs(1));
+  EXPECT_NEAR(markers[0].scale.x, 0.15, 1e-12);
+  EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{128, 128, 0}));
+  style.scale->by = "intensity";
+  EXPECT_THAT(ShownOf(effort, style).at(0).colors, SizeIs(0)) << "it has no such number";
+
+  // RViz's own scales.
+  effort.temperature = 100;
+  EXPECT_EQ(RgbOf(ShownOf(effort).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 0}));
+  effort.temperature = std::nan("");
+  EXPECT_THAT(ShownOf(effort).at(0).colors, SizeIs(1));
+  auto light = InFrame<sensor_msgs::Illuminance>();
+  light.illuminance = 1000;
+  EXPECT_EQ(RgbOf(ShownOf(light).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 255}));
+  auto pressure = InFrame<sensor_msgs::FluidPressure>();
+  pressure.fluid_pressure = 98'000;
+  EXPECT_EQ(RgbOf(ShownOf(pressure).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 0}));
+  auto damp = InFrame<sensor_msgs::RelativeHumidity>();
+  damp.relative_humidity = 0.4;
+  EXPECT_EQ(RgbOf(ShownOf(damp).at(0).colors.at(0)), (std::array<int, 3>{0, 255, 0}));
+}
+
 TEST(ShownMessages, AScanHasThePointsWithinItsRange) {
   auto scan = InFrame<sensor_msgs::LaserScan>();
   scan.angle_min = -1;
@@ -258,6 +318,13 @@ TEST(ShownMessages, OfALargeCloudEveryNthPointIsShown) {
   const ShownMarkers markers = ShownOf(CloudOf(10'000, "intensity", 7));
   ASSERT_THAT(markers, SizeIs(1));
   EXPECT_THAT(markers[0].points, SizeIs(3'334));
+}
+
+TEST(ShownMessages, ManyPointsAreCubesRatherThanSpheres) {
+  ShownStyle style;
+  style.has_spheres = true;
+  EXPECT_EQ(ShownOf(CloudOf(500, "ring", 7), style).at(0).type, Marker::SPHERE_LIST);
+  EXPECT_EQ(ShownOf(CloudOf(501, "ring", 7), style).at(0).type, Marker::POINTS);
 }
 
 TEST(ShownMessages, ACloudThatContradictsItselfIsRefused) {

@@ -3,11 +3,13 @@
 #include <fmt/ranges.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/Temperature.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
@@ -51,6 +53,16 @@ Visualization Manager:
        Marker Topic: /kinescope/markers, Namespaces: {}}
     - {Class: rviz/PointCloud2, Name: Cloud, Enabled: true, Value: true, Topic: /cloud, Alpha: 1,
        Style: Boxes, Size (m): 0.03, Color Transformer: FlatColor, Color: 230; 30; 220}
+    - {Class: rviz/PointCloud2, Name: Heights, Enabled: true, Value: true, Topic: /heights, Alpha: 1,
+       Style: Boxes, Size (m): 0.03, Color Transformer: AxisColor, Axis: Z, Use Fixed Frame: true,
+       Autocompute Value Bounds: {Max Value: 5.6, Min Value: -4.4, Value: false}}
+    - {Class: rviz/Temperature, Name: Effort, Enabled: true, Value: true, Topic: /effort, Alpha: 1,
+       Style: Spheres, Size (m): 0.3, Color Transformer: Intensity, Channel Name: temperature,
+       Use rainbow: false, Invert Rainbow: true, Autocompute Intensity Bounds: false,
+       Min Intensity: 0, Max Intensity: 90, Min Color: 0; 255; 255, Max Color: 255; 0; 255}
+    - {Class: rviz/WrenchStamped, Name: Push, Enabled: true, Value: true, Topic: /push, Alpha: 1,
+       Force Color: 255; 140; 0, Force Arrow Scale: 0.005, Torque Arrow Scale: 0, Arrow Width: 0.4,
+       Hide Small Values: true}
     - {Class: rviz/Path, Name: Plan, Enabled: true, Value: true, Topic: /plan, Alpha: 1,
        Line Style: Billboards, Line Width: 0.04, Color: 20; 220; 30}
     - {Class: rviz/Marker, Name: Wall, Enabled: true, Value: true, Marker Topic: /wall,
@@ -80,9 +92,12 @@ struct Thing {
   const char* name;
   std::array<int, 3> color;
 };
-constexpr std::array<Thing, 5> kThings = {{{"base", {26, 64, 230}},
+constexpr std::array<Thing, 8> kThings = {{{"base", {26, 64, 230}},
                                            {"hand", {230, 204, 13}},
                                            {"cloud", {230, 30, 220}},
+                                           {"heights", {0, 255, 255}},
+                                           {"effort", {128, 128, 255}},
+                                           {"push", {255, 140, 0}},
                                            {"path", {20, 220, 30}},
                                            {"wall", {230, 30, 20}}}};
 
@@ -124,8 +139,11 @@ class RVizScene : public testing::RVizProgram {
     if (IsSkipped() || HasFatalFailure()) return;
     ros::param::set("/robot_description", std::string(kArmOfScene));
     joints_ = node_->advertise<sensor_msgs::JointState>("joint_states", 1, true);
-    PublishLatched<tf2_msgs::TFMessage>("/tf_static", WhereTheArmStands());
-    PublishLatched<sensor_msgs::PointCloud2>("/cloud", Cloud());
+    PublishLatched<tf2_msgs::TFMessage>("/tf_static", WhereThingsStand());
+    PublishLatched<sensor_msgs::PointCloud2>("/cloud", CloudFrom(0.3F));
+    PublishLatched<sensor_msgs::PointCloud2>("/heights", CloudFrom(1.3F));
+    PublishLatched<sensor_msgs::Temperature>("/effort", Effort());
+    PublishLatched<geometry_msgs::WrenchStamped>("/push", Push());
     PublishLatched<nav_msgs::Path>("/plan", Plan());
     PublishLatched<visualization_msgs::Marker>("/wall", Wall());
   }
@@ -155,20 +173,43 @@ class RVizScene : public testing::RVizProgram {
     latched_.back().publish(message);
   }
 
-  static tf2_msgs::TFMessage WhereTheArmStands() {
-    tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    auto& transform = message.transforms[0];
+  static geometry_msgs::TransformStamped Standing(const char* frame, double x, double y, double z,
+                                                  double turn) {
+    geometry_msgs::TransformStamped transform;
     transform.header.frame_id = "world";
-    transform.child_frame_id = "base";
-    transform.transform.translation.x = 1.3;
-    transform.transform.translation.y = 0.6;
-    transform.transform.rotation.z = std::sin(-0.6);
-    transform.transform.rotation.w = std::cos(-0.6);
+    transform.child_frame_id = frame;
+    transform.transform.translation.x = x;
+    transform.transform.translation.y = y;
+    transform.transform.translation.z = z;
+    transform.transform.rotation.z = std::sin(turn / 2);
+    transform.transform.rotation.w = std::cos(turn / 2);
+    return transform;
+  }
+
+  static tf2_msgs::TFMessage WhereThingsStand() {
+    tf2_msgs::TFMessage message;
+    message.transforms = {Standing("base", 1.3, 0.6, 0, -1.2),
+                          Standing("sensor", 0.2, -1.3, 1.2, 0.5)};
     return message;
   }
 
-  static sensor_msgs::PointCloud2 Cloud() {
+  static sensor_msgs::Temperature Effort() {
+    sensor_msgs::Temperature effort;
+    effort.header.frame_id = "sensor";
+    effort.temperature = 45;
+    return effort;
+  }
+
+  static geometry_msgs::WrenchStamped Push() {
+    geometry_msgs::WrenchStamped push;
+    push.header.frame_id = "sensor";
+    push.wrench.force.z = 100;
+    push.wrench.torque.x = 5;
+    return push;
+  }
+
+  // A wall that begins at this height, m.
+  static sensor_msgs::PointCloud2 CloudFrom(float height) {
     sensor_msgs::PointCloud2 cloud;
     cloud.header.frame_id = "world";
     cloud.height = 1;
@@ -183,7 +224,7 @@ class RVizScene : public testing::RVizProgram {
     for (int i = 0; i < 20; ++i) {
       for (int k = 0; k < 20; ++k) {
         const std::array<float, 3> point = {1.1F + 0.03F * static_cast<float>(i), -0.9F,
-                                            0.3F + 0.03F * static_cast<float>(k)};
+                                            height + 0.03F * static_cast<float>(k)};
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
         cloud.data.insert(cloud.data.end(), bytes, bytes + 12);
       }
