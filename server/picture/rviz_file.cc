@@ -94,11 +94,8 @@ class RvizReader {
     Set("background", ToHex(*rgb), line);
     const double luma = 0.2126 * (*rgb)[0] + 0.7152 * (*rgb)[1] + 0.0722 * (*rgb)[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
-    fixed_frame_ = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
-    if (fixed_frame_ != "world" && fixed_frame_ != "map") {
-      Remark(all, "Fixed Frame " + Quoted(fixed_frame_) +
-                      ": the picture is drawn in the world of the source, as in 'world'");
-    }
+    picture_.fixed_frame = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
+    picture_.fixed_frame_line = LineOf(all.IsDefined() ? all : manager);
     if (!BoolOf(all, "Default Light", true)) {
       Remark(all, "Default Light is off; bodies are lit all the same");
     }
@@ -221,7 +218,7 @@ class RvizReader {
     const rviz::View view = rviz::ViewOf(current, height_px_);
     if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
     const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
-    if (target != "<Fixed Frame>" && target != fixed_frame_) {
+    if (target != "<Fixed Frame>" && target != picture_.fixed_frame) {
       Remark(place, "the view's Target Frame " + Quoted(target) +
                         " is not followed; the camera stands as if it were at the origin");
     }
@@ -269,7 +266,6 @@ class RvizReader {
   const std::string path_;
   const int height_px_;
   RvizPicture picture_;
-  std::string fixed_frame_;
   bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
   std::set<std::string> shown_parts_;
 };

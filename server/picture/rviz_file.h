@@ -8,6 +8,8 @@
 namespace kinescope::app {
 
 struct RvizPicture {
+  std::string fixed_frame;  // without a slash before it
+  int fixed_frame_line = 1;
   /// An option, as if it stood in a file of options.
   struct Setting {
     std::string option, text;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/utf8.h"
 #include "server/options/ros_names.h"
 #include "server/picture/rviz_file.h"
 #include "server/source/open_source.h"
@@ -80,6 +81,19 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
            Channel::kFile);
 }
 
+// Of a graph it is the frame of the scene, or the camera of the file stands elsewhere.
+void CheckFixedFrame(const std::string& file, const RvizPicture& picture,
+                     options::OptionList& list) {
+  constexpr char kUsual[] = "map";  // of RViz, with or without a frame of this name
+  const options::Option* const option = list.Find("reference_frame");
+  const std::string ours = option == nullptr ? "world" : option->value->ToText();
+  if (picture.fixed_frame == ours || picture.fixed_frame == kUsual) return;
+  spdlog::warn("{}:{}: Fixed Frame '{}': the scene is drawn in '{}'{}", file,
+               picture.fixed_frame_line, PrintableLine(picture.fixed_frame.substr(0, 100)), ours,
+               option == nullptr ? ", the frame of its source"
+                                 : "; if the people are in that frame, give --reference_frame");
+}
+
 }  // namespace
 
 void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList& list) {
@@ -100,6 +114,7 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   }
   ApplyRobots(*file, picture.robots, list);
   ApplyTopics(*file, picture.topics, list);
+  CheckFixedFrame(*file, picture, list);
   for (const std::string& remark : picture.remarks) spdlog::warn("{}", remark);
   if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *file, missing);
   list.CheckEffects();

@@ -13,6 +13,7 @@
 #include "server/options/ros_names.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/rviz_option.h"
+#include "tests/captured_log.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 
@@ -396,6 +397,30 @@ TEST(RvizOption, LeavesOutWhatHasNoEffect) {
     ApplyRviz(rviz, kPictureHeight, list);
     EXPECT_EQ(list.Find("camera")->channel == options::Channel::kFile, has_pictures);
   }
+}
+
+TEST(RvizOption, NamesAFixedFrameThatIsNotThatOfTheScene) {
+  const kinescope::testing::TempFolder folder;
+  const std::string file = folder / "lab.rviz";
+  options::FilePath rviz;
+  rviz.Parse(file);
+  const auto said_for = [&](const std::string& fixed, const std::string& reference) {
+    std::ofstream(file) << "Visualization Manager:\n  Global Options: {Fixed Frame: " << fixed
+                        << "}\n";
+    options::Text frame("world");
+    frame.Parse(reference);
+    options::OptionList list;
+    if (!reference.empty()) list("reference_frame", frame, "the frame of the scene");
+    const kinescope::testing::CapturedLog log;
+    ApplyRviz(rviz, kPictureHeight, list);
+    return log.text();
+  };
+  EXPECT_THAT(said_for("/ground", "world"),
+              HasSubstr("lab.rviz:2: Fixed Frame 'ground': the scene is drawn in 'world'; if the "
+                        "people are in that frame, give --reference_frame"));
+  EXPECT_THAT(said_for("odom", ""), HasSubstr("drawn in 'world', the frame of its source"));
+  EXPECT_THAT(said_for("ground", "ground"), Not(HasSubstr("Fixed Frame")));
+  EXPECT_THAT(said_for("map", "world"), Not(HasSubstr("Fixed Frame")));
 }
 
 TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {
