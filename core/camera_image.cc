@@ -29,16 +29,20 @@ std::optional<PixelFormat> FormatOf(const std::string& encoding) {
   return std::nullopt;
 }
 
+bool IsFile(const CameraImage& image) {
+  return image.encoding == "jpeg" || image.encoding == "png";
+}
+
 std::string FindDefect(const CameraImage& image) {
   if (image.bytes == nullptr || image.size == 0) return "no pixels";
   if (image.begin > image.bytes->size() || image.size > image.bytes->size() - image.begin) {
     return "it states more bytes than it has";
   }
-  if (image.encoding == "jpeg") return "";
+  if (IsFile(image)) return "";
   const auto format = FormatOf(image.encoding);
   if (!format) {
     return "encoding '" + PrintableLine(image.encoding.substr(0, kLongestName)) +
-           "': expected rgb8, bgr8, mono8, mono16, 16UC1, 32FC1, yuv422 or JPEG";
+           "': expected rgb8, bgr8, mono8, mono16, 16UC1, 32FC1, yuv422, JPEG or PNG";
   }
   if (image.width <= 0 || image.height <= 0 || image.width > kMostSide ||
       image.height > kMostSide) {

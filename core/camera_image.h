@@ -15,7 +15,7 @@ namespace kinescope {
 struct CameraImage {
   std::string name;                 // of its topic
   int width = 0, height = 0;        // px; 0: those of the file
-  std::string encoding;             // as in sensor_msgs/image_encodings.h; "jpeg": a file
+  std::string encoding;             // as in sensor_msgs/image_encodings.h; "jpeg", "png": a file
   std::size_t row_bytes = 0;        // from one row to the next
   std::size_t begin = 0, size = 0;  // of the pixels, or of the file, in `bytes`
   bool is_bigendian = false;        // numbers of two and four bytes
@@ -34,6 +34,9 @@ struct PixelFormat {
 };
 /// nullopt: the encoding is not known, or a file.
 std::optional<PixelFormat> FormatOf(const std::string& encoding);
+
+/// Whether it is a file, which has its width and height within it.
+[[nodiscard]] bool IsFile(const CameraImage& image);
 
 /// Why its pixels cannot be read, such as "encoding 'xyz': ..."; "": they can, or it is a file,
 /// which is not looked at.

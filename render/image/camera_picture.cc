@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "render/image/png_file.h"
@@ -137,24 +138,38 @@ Image Resized(const CameraImage& image, int most_width, int most_height) {
   return out;
 }
 
+CameraImage WholeOf(std::vector<std::uint8_t> pixels, int width, int height, const char* encoding) {
+  CameraImage whole;
+  whole.width = width;
+  whole.height = height;
+  whole.encoding = encoding;
+  whole.size = pixels.size();
+  whole.row_bytes = whole.size / static_cast<std::size_t>(height);
+  whole.bytes = std::make_shared<const std::vector<std::uint8_t>>(std::move(pixels));
+  return whole;
+}
+
+CameraImage OfJpeg(const CameraImage& file, int enough_px) {
+  Image pixels = ReadJpeg(file.bytes->data() + file.begin, file.size, enough_px);
+  return WholeOf(std::move(pixels.rgba), pixels.width, pixels.height, "rgba8");
+}
+
+CameraImage OfPng(const CameraImage& file) {
+  PngPixels pixels = ReadPngPixels(file.bytes->data() + file.begin, file.size);
+  return WholeOf(std::move(pixels.bytes), pixels.width, pixels.height,
+                 pixels.is_grey16 ? "mono16" : "rgba8");
+}
+
 }  // namespace
 
 tl::expected<Image, std::string> DecodeCameraImage(const CameraImage& image, int width,
                                                    int height) {
   const std::string defect = FindDefect(image);
   if (!defect.empty()) return tl::unexpected(defect);
-  if (image.encoding != "jpeg") return Resized(image, width, height);
+  if (!IsFile(image)) return Resized(image, width, height);
   try {
-    auto pixels = std::make_shared<Image>(
-        ReadJpeg(image.bytes->data() + image.begin, image.size, std::max(width, height)));
-    CameraImage whole;
-    whole.width = pixels->width;
-    whole.height = pixels->height;
-    whole.encoding = "rgba8";
-    whole.row_bytes = 4 * static_cast<std::size_t>(pixels->width);
-    whole.size = pixels->rgba.size();
-    whole.bytes = std::shared_ptr<const std::vector<std::uint8_t>>(pixels, &pixels->rgba);
-    return Resized(whole, width, height);
+    return Resized(image.encoding == "png" ? OfPng(image) : OfJpeg(image, std::max(width, height)),
+                   width, height);
   } catch (const std::runtime_error& error) {
     return tl::unexpected(std::string(error.what()));
   }

@@ -1,5 +1,6 @@
 #include "render/image/png_file.h"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <cerrno>
@@ -84,6 +85,44 @@ bool RunHeadReader(png_structp png, png_infop info, std::FILE* file) {
   return true;
 }
 
+// libpng's simplified reader. Throws std::runtime_error with the reason.
+class PngInMemory {
+ public:
+  PngInMemory(const std::uint8_t* bytes, std::size_t size) {
+    header_.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(&header_, bytes, size) == 0) Fail(header_.message);
+    if (header_.width > kMaxSide || header_.height > kMaxSide) {
+      Fail(std::to_string(header_.width) + " x " + std::to_string(header_.height) +
+           " px is larger than the limit of " + std::to_string(kMaxSide) + " px per side");
+    }
+  }
+  ~PngInMemory() { png_image_free(&header_); }
+  PngInMemory(const PngInMemory&) = delete;
+  PngInMemory& operator=(const PngInMemory&) = delete;
+
+  const png_image& header() const { return header_; }
+
+  // Once.
+  std::vector<std::uint8_t> Read(png_uint_32 format) {
+    header_.format = format;
+    std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(header_));
+    if (png_image_finish_read(&header_, nullptr, pixels.data(), 0, nullptr) == 0) {
+      Fail(header_.message);
+    }
+    return pixels;
+  }
+
+ private:
+  // The destructor does not run for a constructor that throws.
+  [[noreturn]] void Fail(const std::string& why) {
+    const std::string kept = why;
+    png_image_free(&header_);
+    throw std::runtime_error(kept);
+  }
+
+  png_image header_ = {};
+};
+
 std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path) {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -148,26 +187,36 @@ Image ReadPng(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = ReadWhole(path);
   Image image;
   if (ReadPlainPng(bytes.data(), bytes.size(), kMaxSide, image)) return image;
-  png_image header = {};
-  header.version = PNG_IMAGE_VERSION;
-  const auto fail = [&](const std::string& why) {
-    png_image_free(&header);
-    throw std::runtime_error(path.string() + " is not a readable PNG: " + why);
-  };
-  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
-    fail(header.message);
-  if (header.width > kMaxSide || header.height > kMaxSide) {
-    fail(std::to_string(header.width) + " x " + std::to_string(header.height) +
-         " px is larger than the limit of " + std::to_string(kMaxSide) + " px per side");
+  try {
+    PngInMemory png(bytes.data(), bytes.size());
+    image.is_opaque = (png.header().format & PNG_FORMAT_FLAG_ALPHA) == 0;
+    image.rgba = png.Read(PNG_FORMAT_RGBA);
+    image.width = static_cast<int>(png.header().width);
+    image.height = static_cast<int>(png.header().height);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path.string() + " is not a readable PNG: " + error.what());
   }
-  image.is_opaque = (header.format & PNG_FORMAT_FLAG_ALPHA) == 0;
-  header.format = PNG_FORMAT_RGBA;
-  image.width = static_cast<int>(header.width);
-  image.height = static_cast<int>(header.height);
-  image.rgba.resize(PNG_IMAGE_SIZE(header));
-  if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0)
-    fail(header.message);
   return image;
+}
+
+PngPixels ReadPngPixels(const std::uint8_t* bytes, std::size_t size) {
+  constexpr std::uint64_t kMostPixels = 16'000'000;
+  try {
+    PngInMemory png(bytes, size);
+    const png_image& header = png.header();
+    if (std::uint64_t{header.width} * header.height > kMostPixels) {
+      throw std::runtime_error(
+          fmt::format("{} x {} px are more than {}", header.width, header.height, kMostPixels));
+    }
+    PngPixels pixels;
+    pixels.width = static_cast<int>(header.width);
+    pixels.height = static_cast<int>(header.height);
+    pixels.is_grey16 = header.format == PNG_FORMAT_LINEAR_Y;
+    pixels.bytes = png.Read(pixels.is_grey16 ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_RGBA);
+    return pixels;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string("PNG: ") + error.what());
+  }
 }
 
 std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path) {

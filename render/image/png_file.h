@@ -2,6 +2,7 @@
 /// from files, any thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -24,6 +25,17 @@ std::vector<std::uint8_t> EncodePng(const Image& image,
 
 /// @throws std::runtime_error with the path and the reason.
 Image ReadPng(const std::filesystem::path& path);
+
+struct PngPixels {
+  int width = 0, height = 0;
+  bool is_grey16 = false;           // numbers of two bytes, the low one first; else RGBA
+  std::vector<std::uint8_t> bytes;  // row by row
+};
+
+/// Of untrusted bytes. Grey of 16 bits, as depth cameras send it, keeps its numbers.
+/// @throws std::runtime_error with the reason: no PNG, damaged, or more than 16,384 px a side or 16
+/// million in all
+PngPixels ReadPngPixels(const std::uint8_t* bytes, std::size_t size);
 
 /// The tEXt, zTXt and iTXt chunks before the pixels. @throws std::runtime_error with the path and
 /// the reason.

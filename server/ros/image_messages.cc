@@ -5,7 +5,10 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <initializer_list>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "server/ros/raw_message.h"
@@ -26,9 +29,7 @@ void ReadMembers(bool is_file, BoundedStream& stream, CameraImage& image) {
   std_msgs::Header header;
   stream.next(header);
   if (is_file) {
-    std::string format;
-    stream.next(format);
-    image.encoding = "jpeg";
+    stream.next(image.encoding);  // "16UC1; compressedDepth png", for one
   } else {
     std::uint32_t width = 0, height = 0, step = 0;
     std::uint8_t is_bigendian = 0;
@@ -49,9 +50,29 @@ void ReadMembers(bool is_file, BoundedStream& stream, CameraImage& image) {
   static_cast<void>(stream.advance(count));
 }
 
-bool IsJpeg(const CameraImage& image) {
-  const std::uint8_t* const at = image.bytes->data() + image.begin;
-  return image.size > 3 && at[0] == 0xff && at[1] == 0xd8 && at[2] == 0xff;
+bool BeginsWith(const CameraImage& image, std::initializer_list<std::uint8_t> begin) {
+  return image.size > begin.size() &&
+         std::equal(begin.begin(), begin.end(),
+                    image.bytes->begin() + static_cast<std::ptrdiff_t>(image.begin));
+}
+
+// Says what kind of file it is, by its first bytes; its `encoding` is the format that was stated.
+// Or why it cannot be shown.
+const char* TakeFile(CameraImage& image) {
+  // compressed_depth_image_transport has three numbers before the picture; of floating-point
+  // depths, a picture of their inverse.
+  constexpr std::size_t kDepthHead = 12;
+  const std::string format = std::exchange(image.encoding, "");
+  if (format.find("compressedDepth") != std::string::npos) {
+    if (format.compare(0, 5, "16UC1") != 0 || image.size < kDepthHead) {
+      return "a compressed depth image that is not of 16UC1";
+    }
+    image.begin += kDepthHead;
+    image.size -= kDepthHead;
+  }
+  if (BeginsWith(image, {0xff, 0xd8, 0xff})) image.encoding = "jpeg";
+  if (BeginsWith(image, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'})) image.encoding = "png";
+  return image.encoding.empty() ? "a compressed image that is neither JPEG nor PNG" : nullptr;
 }
 
 }  // namespace
@@ -75,8 +96,10 @@ Taken<CameraImage> ReadImage(const std::string& md5sum,
     }
   }
   if (!is_whole) return tl::unexpected(Unreadable());
-  if (is_file && !IsJpeg(image)) {
-    return tl::unexpected(Refusal{"cannot be drawn", "a compressed image that is no JPEG"});
+  if (is_file) {
+    if (const char* const defect = TakeFile(image)) {
+      return tl::unexpected(Refusal{"cannot be drawn", defect});
+    }
   }
   const std::string defect = FindDefect(image);
   if (!defect.empty()) return tl::unexpected(Refusal{"cannot be drawn", "an image: " + defect});

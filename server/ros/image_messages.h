@@ -1,5 +1,5 @@
-/// Pictures of cameras (sensor_msgs/Image, and CompressedImage that is JPEG), without a copy of
-/// their pixels. Pure functions, any thread.
+/// Pictures of cameras (sensor_msgs/Image, and CompressedImage that is JPEG or PNG), without a copy
+/// of their pixels. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>

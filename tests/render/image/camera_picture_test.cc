@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -133,6 +134,54 @@ TEST(CameraPicture, MayBeAJpeg) {
   }
   EXPECT_THAT(DecodeCameraImage(ImageOf("jpeg", 0, 1, {1, 2, 3}), 80, 80).error(),
               HasSubstr("JPEG: "));
+}
+
+// Of Python's zlib, without libpng: 3 x 2 px of 16 bits, 1000, 2000, 3000 and 3000, 1500, 1000.
+const std::vector<std::uint8_t> kDepthPng = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+    0x00, 0x00, 0x00, 0x03, 0x00, 0x00, 0x00, 0x02, 0x10, 0x00, 0x00, 0x00, 0x00, 0xe8, 0x8f, 0xe5,
+    0x85, 0x00, 0x00, 0x00, 0x16, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x7e, 0xc1, 0x7e,
+    0x81, 0x7b, 0x07, 0x03, 0xf7, 0x0e, 0xd6, 0x3b, 0xcc, 0x2f, 0x00, 0x21, 0x15, 0x05, 0x15, 0x34,
+    0x99, 0x45, 0xa0, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+TEST(CameraPicture, MayBeAPng) {
+  Image red;
+  SetSize(red, 40, 30);
+  for (std::size_t i = 0; i < red.rgba.size(); ++i)
+    red.rgba[i] = i % 4 == 0 || i % 4 == 3 ? 255 : 0;
+  const std::vector<std::uint8_t> file = EncodePng(red);
+  CameraImage image = ImageOf("png", 0, 1, file);
+  image.height = 0;
+  const auto decoded = DecodeCameraImage(image, 20, 20);
+  ASSERT_TRUE(decoded) << decoded.error();
+  EXPECT_EQ(decoded->width, 20);
+  EXPECT_EQ(decoded->height, 15);
+  EXPECT_EQ(At(*decoded, 10, 7)[0], 255);
+  EXPECT_EQ(At(*decoded, 10, 7)[1], 0);
+
+  const auto depth = DecodeCameraImage(ImageOf("png", 0, 1, kDepthPng), 3, 2);
+  ASSERT_TRUE(depth) << depth.error();
+  EXPECT_EQ(At(*depth, 0, 0)[0], 0) << "the nearest";
+  EXPECT_EQ(At(*depth, 1, 0)[0], 128);
+  EXPECT_EQ(At(*depth, 2, 0)[0], 255);
+  EXPECT_EQ(At(*depth, 1, 1)[0], 64);
+}
+
+TEST(CameraPicture, OfADamagedPngIsRefused) {
+  for (std::size_t size = 1; size < kDepthPng.size() - 12; ++size) {
+    CameraImage image = ImageOf("png", 0, 1, kDepthPng);
+    image.size = size;
+    EXPECT_FALSE(DecodeCameraImage(image, 80, 80)) << size;
+  }
+  EXPECT_THAT(DecodeCameraImage(ImageOf("png", 0, 1, {1, 2, 3}), 80, 80).error(),
+              HasSubstr("PNG: "));
+  std::vector<std::uint8_t> large = kDepthPng;
+  large[18] = large[22] = 0x20;  // 8,192 px each, and the checksum for it
+  large[19] = large[23] = 0;
+  const std::array<std::uint8_t, 4> sum = {0x07, 0x51, 0x49, 0xc6};
+  std::copy(sum.begin(), sum.end(), large.begin() + 29);
+  EXPECT_EQ(DecodeCameraImage(ImageOf("png", 0, 1, large), 80, 80).error(),
+            "PNG: 8192 x 8192 px are more than 16000000");
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(ImageMessages, ThatLieAreRefused) {
   EXPECT_THAT(Read(message).error().text, HasSubstr("encoding 'unheard_of'"));
 }
 
-TEST(ImageMessages, MayBeJpegAndNothingElseThatIsCompressed) {
+TEST(ImageMessages, MayBeJpegOrPngAndNothingElseThatIsCompressed) {
   sensor_msgs::CompressedImage message;
   message.format = "rgb8; jpeg compressed bgr8";
   message.data = {0xff, 0xd8, 0xff, 0xe0, 0};
@@ -75,12 +75,33 @@ TEST(ImageMessages, MayBeJpegAndNothingElseThatIsCompressed) {
   ASSERT_TRUE(image);
   EXPECT_EQ(image->encoding, "jpeg");
   EXPECT_EQ(image->size, 5u);
-  message.data = {0x89, 'P', 'N', 'G', '\r'};
-  EXPECT_EQ(Read(message).error().text, "a compressed image that is no JPEG");
+  message.data = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0};
+  EXPECT_EQ(Read(message)->encoding, "png") << "whatever its format says";
+  message.data.resize(6);
+  EXPECT_EQ(Read(message).error().text, "a compressed image that is neither JPEG nor PNG");
   message.data.clear();
   EXPECT_FALSE(Read(message));
   EXPECT_TRUE(IsImageType(ros::message_traits::md5sum<sensor_msgs::CompressedImage>()));
   EXPECT_FALSE(IsImageType(ros::message_traits::md5sum<std_msgs::String>()));
+}
+
+TEST(ImageMessages, MayBeADepthWithItsHead) {
+  sensor_msgs::CompressedImage message;
+  message.format = "16UC1; compressedDepth png";
+  message.data.resize(12);
+  for (const std::uint8_t byte : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x07}) {
+    message.data.push_back(byte);
+  }
+  const auto image = Read(message);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->encoding, "png");
+  EXPECT_EQ(image->size, 9u);
+  EXPECT_EQ(image->bytes->at(image->begin), 0x89);
+  message.format = "32FC1; compressedDepth png";
+  EXPECT_THAT(Read(message).error().text, HasSubstr("not of 16UC1"));
+  message.format = "16UC1; compressedDepth";
+  message.data.resize(11);
+  EXPECT_FALSE(Read(message));
 }
 
 TEST(ImageBox, HasTheNewestOfEachTopicAndFourAtMost) {
