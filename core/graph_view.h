@@ -33,19 +33,19 @@ struct PointScale {
 struct WrenchArrows {
   double force_m = 0.001, torque_m = 0.01;  // their lengths for 1 N and for 1 N·m; 0: none
   std::optional<Rgb> torque_color;
-  /// RViz's "Arrow Width", of which a tenth is the diameter of the shaft; unset: as arrows of
-  /// ground reaction forces.
-  std::optional<double> width_m;
   bool hides_small = true;  // with a width: arrows whose shaft is shorter than that
 };
 
 /// How a message that is shown as a marker looks, where it is not as by default
 /// (server/ros/shown_messages.h).
 struct ShownStyle {
-  std::optional<Rgb> color;         // of all of it, in place of colours of its own
-  std::optional<double> alpha;      // 0..1
-  std::optional<double> size_m;     // of a point, the width of a line, the length of an arrow, the
-                                    // radius of a sphere
+  std::optional<Rgb> color;      // of all of it, in place of colours of its own
+  std::optional<double> alpha;   // 0..1
+  std::optional<double> size_m;  // of a point, the width of a line, the length of an arrow, the
+                                 // radius of a sphere
+  /// Of axes, their diameter. Of a wrench RViz's "Arrow Width", of which a tenth is the diameter of
+  /// the shaft; unset: as arrows of ground reaction forces.
+  std::optional<double> width_m;
   std::optional<PointScale> scale;  // of points, unless they have a colour
   bool has_axes = false;            // of a pose: three axes, not an arrow
   bool has_spheres = false;         // of points, if they are few: spheres, not cubes
@@ -59,6 +59,7 @@ inline constexpr std::size_t kMostShownTopics = 64;
 struct ShownTopic {
   std::string name;
   ShownStyle style = {};
+  bool is_frame = false;  // no topic: a frame of TF whose axes are shown; "": that of the scene
 };
 
 struct GraphView {

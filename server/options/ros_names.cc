@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <initializer_list>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/system/starts_with.h"
 #include "server/options/text.h"
 
 namespace kinescope::app {
@@ -39,7 +41,7 @@ bool TakeScale(const std::string& key, const std::string& text, PointScale& scal
   return bound && std::abs(*bound) <= kLargestBound;
 }
 
-// "force=0.002", "torque=0", "torque_color=#255fff", "width=0.3", "small=shown" of a wrench.
+// "force=0.002", "torque=0", "torque_color=#255fff", "small=shown" of a wrench.
 bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& arrows) {
   if (key == "torque_color") {
     arrows.torque_color = ColorFromHex(text);
@@ -51,10 +53,6 @@ bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& a
   }
   const auto metres = options::ParseNumber(text);
   if (!metres) return false;
-  if (key == "width") {
-    arrows.width_m = *metres;
-    return *metres >= kSmallestShown && *metres <= kLargestShown;
-  }
   (key == "force" ? arrows.force_m : arrows.torque_m) = *metres;
   return *metres >= 0 && *metres <= kLongestArrow;
 }
@@ -82,7 +80,7 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
-  if (is_one_of({"force", "torque", "torque_color", "width", "small"})) {
+  if (is_one_of({"force", "torque", "torque_color", "small"})) {
     return TakeArrows(key, text, style.wrench);
   }
   if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
@@ -94,8 +92,8 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.alpha = *number;
     return *number >= 0 && *number <= 1;
   }
-  if (key != "size" || !number) return false;
-  style.size_m = *number;
+  if ((key != "size" && key != "width") || !number) return false;
+  (key == "size" ? style.size_m : style.width_m) = *number;
   return *number >= kSmallestShown && *number <= kLargestShown;
 }
 
@@ -103,7 +101,11 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
   ShownTopic topic;
   const std::size_t open = text.find('(');
   topic.name = text.substr(0, open);
-  if (!IsTopicName(topic.name)) return std::nullopt;
+  topic.is_frame = StartsWith(topic.name, kAxesOfFrame);
+  if (topic.is_frame) topic.name.erase(0, std::strlen(kAxesOfFrame));
+  const bool is_good =
+      topic.is_frame ? topic.name.empty() || IsFrameName(topic.name) : IsTopicName(topic.name);
+  if (!is_good) return std::nullopt;
   if (open == std::string::npos) return topic;
   if (text.back() != ')') return std::nullopt;
   for (const std::string& item :

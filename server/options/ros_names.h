@@ -20,13 +20,16 @@ inline constexpr double kLongestArrow = 1000;                        // m for 1 
 inline constexpr char kTopicNameExpected[] = "the name of a topic, such as /human/tf";
 inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
+/// Before the name of a frame among topics: its axes are shown.
+inline constexpr char kAxesOfFrame[] = "tf:";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
 /// A field of a cloud: letters, digits and _.
 [[nodiscard]] bool IsFieldName(const std::string& text);
 /// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)"; points by
 /// a number of theirs: "/scan(by=z,from=0,to=2,low=#000000,high=#ffffff)",
-/// "/c(by=ring,rainbow=inverted)".
+/// "/c(by=ring,rainbow=inverted)"; arrows of a wrench: "/push(force=0.002,torque=0,width=0.3)";
+/// axes: "tf:base_link(size=0.5)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

@@ -132,6 +132,8 @@ class RvizReader {
       ReadTopic(display, called, "Image Topic", "");
     } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
+    } else if (kind == "rviz/Axes") {
+      ReadAxes(display, called);
     } else if (kind == "rviz/TF") {
       has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
       if (BoolOf(display, "Show Names", true) || BoolOf(display, "Show Arrows", true)) {
@@ -187,6 +189,25 @@ class RvizReader {
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
       Remark(display, called + " is not drawn: " + why);
     }
+  }
+
+  void ReadAxes(const YAML::Node& display, const std::string& called) {
+    const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
+    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
+    const std::string frame = is_fixed ? "" : saved;
+    if (!is_fixed && !IsFrameName(frame)) {
+      Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
+      return;
+    }
+    const auto metres = [&](const char* property, double usual) {
+      return options::NumberText(
+          rviz::NumberOf(display, property, usual, kSmallestShown, kLargestShown));
+    };
+    std::string style = "(size=" + metres("Length", 1) + ",width=" + metres("Radius", 0.1);
+    const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
+    if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
+    picture_.topics.push_back(
+        {kAxesOfFrame + frame, style + ")", Shown(called), false, LineOf(display)});
   }
 
   // Parts are drawn that some display shows.

@@ -21,6 +21,7 @@ constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a count
 
 std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   for (ShownTopic& topic : topics) {
+    if (topic.is_frame) continue;
     std::string why;
     if (topic.name.empty() || !ros::names::validate(topic.name, why)) {
       throw UsageError(
@@ -44,7 +45,14 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string reference_f
     : topics_(Resolved(std::move(topics))),
       reference_frame_(std::move(reference_frame)),
       tf_(std::move(tf)) {
-  for (const ShownTopic& topic : topics_) counters_[topic.name];  // shown even without messages
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    const ShownTopic& topic = topics_[i];
+    if (!topic.is_frame) {
+      counters_[topic.name];  // shown even without messages
+    } else if (const auto refusal = store_.Apply(i, AxesOf(topic.name, topic.style), 0)) {
+      throw UsageError("--marker_topics: " + refusal->text);
+    }
+  }
 }
 
 void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
@@ -172,6 +180,7 @@ std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::Callba
                                               const std::shared_ptr<MarkerInbox>& inbox) {
   std::vector<ros::Subscriber> all;
   for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
+    if (inbox->topics()[topic].is_frame) continue;
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const MarkerInbox::Event&>(
         inbox->topics()[topic].name, kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {

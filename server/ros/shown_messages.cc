@@ -150,16 +150,16 @@ Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA
 }
 
 // @param least  N or N·m, of an arrow without a width
-Marker ArrowOrNone(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
-                   const geometry_msgs::Vector3& vector, double metres, double least,
-                   const WrenchArrows& arrows) {
+Marker ArrowOrNone(const std_msgs::Header& header, int id, const ShownStyle& style,
+                   const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3& vector,
+                   double metres, double least) {
   const Eigen::Vector3d value(vector.x, vector.y, vector.z), to = metres * value;
-  const bool is_small = arrows.width_m
-                            ? arrows.hides_small && to.norm() <= kWholeArrow * *arrows.width_m
+  const bool is_small = style.width_m
+                            ? style.wrench.hides_small && to.norm() <= kWholeArrow * *style.width_m
                             : value.norm() < least;
   // What is not finite goes on, so that it is named as for other markers.
   if (is_small || to.norm() == 0) return Without(header, id);
-  return ArrowOf(header, id, color, to, arrows.width_m);
+  return ArrowOf(header, id, In(style, color), to, style.width_m);
 }
 
 }  // namespace
@@ -251,10 +251,21 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
   const WrenchArrows& arrows = style.wrench;
   ShownStyle of_torque = style;
   if (arrows.torque_color) of_torque.color = arrows.torque_color;
-  return ShownMarkers{ArrowOrNone(message.header, 0, In(style, Color(204, 51, 51)),
-                                  message.wrench.force, arrows.force_m, kLeastForce, arrows),
-                      ArrowOrNone(message.header, 1, In(of_torque, Color(204, 204, 51)),
-                                  message.wrench.torque, arrows.torque_m, kLeastTorque, arrows)};
+  return ShownMarkers{ArrowOrNone(message.header, 0, style, Color(204, 51, 51),
+                                  message.wrench.force, arrows.force_m, kLeastForce),
+                      ArrowOrNone(message.header, 1, of_torque, Color(204, 204, 51),
+                                  message.wrench.torque, arrows.torque_m, kLeastTorque)};
+}
+
+Marker AxesOf(const std::string& frame, const ShownStyle& style) {
+  const double length = style.size_m.value_or(1);
+  std_msgs::Header header;
+  header.frame_id = frame;
+  Marker lines = MarkerOf(header, 0, Marker::LINE_LIST, Color(255, 255, 255));
+  lines.ns = frame.empty() ? "axes" : frame;
+  lines.frame_locked = 1U;  // they go with their frame
+  AddAxes({}, length, style.width_m.value_or(0.1 * length), style, lines);
+  return lines;
 }
 
 ToMarkersOfBytes FindShownMessage(const std::string& md5sum) {

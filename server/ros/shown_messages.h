@@ -92,6 +92,9 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::FluidPressure& message,
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::RelativeHumidity& message,
                               const ShownStyle& style = {});
 
+/// Axes of 1 m, or of the size of the style, that go with a frame of TF; "": that of the scene.
+visualization_msgs::Marker AxesOf(const std::string& frame, const ShownStyle& style);
+
 /// The markers of serialised bytes; or why there are none.
 using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes,
                                                  const ShownStyle& style);

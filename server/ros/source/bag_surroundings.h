@@ -28,6 +28,7 @@ namespace kinescope::ros_bridge {
 
 class BagSurroundings {
  public:
+  /// @throws UsageError for a frame whose axes cannot be shown
   explicit BagSurroundings(const GraphView& view);
 
   /// Whether its messages are used.
@@ -53,6 +54,7 @@ class BagSurroundings {
     std::string joint_states;  // topic
   };
 
+  void AddAxes(const ShownTopic& frame);
   const char* Decode(const BagMessage& message);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
   void TakeShown(const BagMessage& message, SourceCounters& counters);

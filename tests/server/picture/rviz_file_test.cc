@@ -337,6 +337,31 @@ Visualization Manager:
   EXPECT_FALSE((*value)[1].style.wrench.hides_small);
 }
 
+TEST(RvizFile, HasAxesOfFrames) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Global Options: {Fixed Frame: /odom}
+  Displays:
+    - {Class: rviz/Axes, Enabled: true, Length: 2, Radius: 0.5, Reference Frame: base_link, Alpha: 0.5}
+    - {Class: rviz/Axes, Enabled: true, Reference Frame: <Fixed Frame>}
+    - {Class: rviz/Axes, Enabled: true, Reference Frame: odom, Length: 100}
+    - {Class: rviz/Axes, Enabled: true, Name: Bad, Reference Frame: a b}
+)");
+  std::vector<std::string> items;
+  for (const RvizPicture::Topic& topic : picture.topics) items.push_back(topic.name + topic.style);
+  EXPECT_THAT(items, ElementsAre("tf:base_link(size=2,width=0.5,alpha=0.5)",
+                                 "tf:(size=1,width=0.1)", "tf:(size=10,width=0.1)"));
+  EXPECT_THAT(picture.remarks,
+              Contains(HasSubstr("'Bad' is not drawn: 'a b' is no name of a frame")));
+  ShownTopicsValue value;
+  value.Parse(items[0] + "," + items[1] + ",/walls");
+  EXPECT_TRUE((*value)[0].is_frame);
+  EXPECT_EQ((*value)[0].name, "base_link");
+  EXPECT_EQ((*value)[0].style.width_m, 0.5);
+  EXPECT_EQ((*value)[1].name, "");
+  EXPECT_FALSE((*value)[2].is_frame);
+}
+
 TEST(RvizFile, RefusesStylesThatSayNothing) {
   for (const char* bad : {"/a(",
                           "/a()b",
@@ -354,6 +379,8 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(force=-1)",
                           "/a(force=2000)",
                           "/a(width=0)",
+                          "tf:/odom",
+                          "tf:a b",
                           "/a(torque_color=5)",
                           "/a(small=no)",
                           "/a(rainbow=no)",

@@ -143,7 +143,7 @@ TEST(ShownMessages, AWrenchHasTheArrowsOfRvizIfItsScalesAreGiven) {
   style.color = Rgb{1, 1, 0};
   style.wrench.force_m = 1.3 * 0.002;
   style.wrench.torque_m = 0;
-  style.wrench.width_m = 0.3;
+  style.width_m = 0.3;
   style.wrench.torque_color = Rgb{0, 0, 1};
   ShownMarkers markers = ShownOf(wrench, style);
   EXPECT_NEAR(markers.at(0).points.at(1).z, 1.3 * 1.4, 1e-12) << "shaft and head";

@@ -1,7 +1,7 @@
 // The bridge as `kinescope serve --marker_topics` has it, which says on its standard output what is
 // in the scene: a line `<n> markers` and one for each, whenever that changes. A person stands
 // there, whose pelvis is told by lines on the standard input: `x y z`.
-//   marker_listener /topic[,/topic]
+//   marker_listener /topic[,/topic][,tf:frame]
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "core/system/starts_with.h"
 #include "server/options/text.h"
 #include "server/ros/bridge.h"
 #include "tests/server/ros/test_person.h"
@@ -50,7 +51,8 @@ bool TakeLine(ros_bridge::RosBridge& bridge, SceneState& scene) {
 void Listen(const std::string& topics) {
   ros_bridge::BridgeConfig config;
   for (const std::string& name : options::SplitItems(topics)) {
-    config.shown.topics.push_back({name, {}});
+    const bool is_frame = StartsWith(name, "tf:");
+    config.shown.topics.push_back({is_frame ? name.substr(3) : name, {}, is_frame});
   }
   const auto bridge = ros_bridge::MakeRosBridge(config, ros_bridge::RosMode::kRequired);
   Printer printer;

@@ -104,6 +104,19 @@ TEST_F(MarkersOverRos, WaitForTheirFrameAndFollowItIfLocked) {
   Await("2 markers; cube walls/1 at 2.000 0.000 0.000; sphere walls/2 at 1.000 0.000 0.000");
 }
 
+TEST_F(MarkersOverRos, AxesOfAFrameGoWithItAndThoseOfTheSceneStand) {
+  bridge_.reset();
+  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
+  bridge_ = std::make_unique<testing::Process>(
+      std::vector<std::string>{KINESCOPE_MARKER_LISTENER, "tf:cart,tf:"});
+  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
+  Await("1 markers; line list axes/0 at 0.000 0.000 0.000");
+  SetCart(1);
+  Await("2 markers; line list cart/0 at 1.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
+  SetCart(2);
+  Await("2 markers; line list cart/0 at 2.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
+}
+
 TEST_F(MarkersOverRos, OnALinkFollowThePerson) {
   Marker badge = Of(Marker::CYLINDER, 1);
   badge.header.frame_id = "skeleton_pelvis";

@@ -183,6 +183,26 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
 }
 
+TEST_F(BagSurroundingsTest, AreAxesOfFramesThatAreNamed) {
+  GraphView view;
+  view.topics = {{"cart", {}, true}};
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin + kStep / 2), FrameAt("cart", 3, kBegin + kStep / 2));
+        bag.write("/tf", TimeOf(kBegin + 9 * kStep / 2),
+                  FrameAt("cart", 4, kBegin + 9 * kStep / 2));
+      },
+      view);
+  EXPECT_EQ(CountsOf(recorded).back(), 1u);
+  const SceneMarker& axes = *recorded.markers.back().front();
+  EXPECT_EQ(axes.ns, "cart");
+  EXPECT_EQ(axes.type, MarkerType::kLineList);
+  EXPECT_EQ(axes.pose.position.x(), 4);
+  ASSERT_EQ(axes.colors.size(), 6u);
+  EXPECT_EQ(axes.colors[2], Eigen::Vector4d(0, 1, 0, 1)) << "y is green";
+  EXPECT_EQ(axes.points[3], Eigen::Vector3d(0, 1, 0));
+}
+
 TEST_F(BagSurroundingsTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker brief = CubeIn("world", 2, 5);
