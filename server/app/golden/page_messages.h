@@ -31,6 +31,7 @@ class MessageSplitter {
 };
 
 /// The answer to a call, or an event.
+// NOLINTNEXTLINE(bugprone-exception-escape): nlohmann's json moves without exceptions
 struct BrowserMessage {
   std::optional<std::int64_t> call;  // its number; nullopt: an event
   std::string method;                // of an event

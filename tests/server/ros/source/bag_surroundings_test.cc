@@ -172,7 +172,10 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   };
   EXPECT_THAT(CountsOf(Read(write)), ElementsAre(0, 0, 0, 0, 0, 0));
   GraphView view;
-  view.topics = {{"goal", {Rgb{0, 0.5, 1}, 0.5, 0.05}}};
+  view.topics = {{"goal"}};
+  view.topics[0].style.color = Rgb{0, 0.5, 1};
+  view.topics[0].style.alpha = 0.5;
+  view.topics[0].style.size_m = 0.05;
   const Recorded recorded = Read(write, view);
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_EQ(recorded.markers.back()[0]->pose.position.x(), 2);
