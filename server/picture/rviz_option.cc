@@ -85,7 +85,8 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
 void CheckFixedFrame(const std::string& file, const RvizPicture& picture,
                      options::OptionList& list) {
   constexpr char kUsual[] = "map";  // of RViz, with or without a frame of this name
-  const options::Option* const option = list.Find("reference_frame");
+  const options::Option* option = list.Find("reference_frame");
+  if (option != nullptr && !list.HasEffect("reference_frame")) option = nullptr;
   const std::string ours = option == nullptr ? "world" : option->value->ToText();
   if (picture.fixed_frame == ours || picture.fixed_frame == kUsual) return;
   spdlog::warn("{}:{}: Fixed Frame '{}': the scene is drawn in '{}'{}", file,

@@ -182,8 +182,8 @@ class StyleReader {
   }
 
   void AddArrows() {
-    constexpr double kWholeArrow =
-        1.3;  // of one with a shaft of 1, of which the file has the scale
+    // The file has the scale of a shaft; its head is 0.3 of it.
+    constexpr double kWholeArrow = 1.3;
     const auto number = [&](const char* property, double usual, double least, double most) {
       return NumberOf(display_, property, usual, least, most);
     };

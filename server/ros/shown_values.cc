@@ -1,6 +1,4 @@
 // Measured values as points with a colour.
-#include <utility>
-
 #include "server/ros/point_colors.h"
 #include "server/ros/shown_messages.h"
 #include "server/ros/shown_parts.h"
@@ -26,9 +24,13 @@ ShownMarkers ShowValue(const std_msgs::Header& header, double value, const Point
   if (!style.scale) style.scale = usual;
   if (style.scale->by.empty()) style.scale->by = usual.by;
   visualization_msgs::Marker point = PointsOf(header, style, kSphereSize);
-  point.points.push_back(PointAt(0, 0, 0));
-  if (!style.color && style.scale->by == usual.by) point.colors = ColorsOf({value}, style);
-  return PointsOrNone(std::move(point));
+  if (!style.color && style.scale->by == usual.by) point.color = ColorsOf({value}, style).front();
+  if (style.has_spheres) {
+    point.type = visualization_msgs::Marker::SPHERE;  // rounder than one of many
+  } else {
+    point.points.push_back(PointAt(0, 0, 0));
+  }
+  return {point};
 }
 
 }  // namespace

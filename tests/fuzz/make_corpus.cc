@@ -473,6 +473,23 @@ void WriteMaps(const fs::path& folder) {
   const std::vector<std::uint8_t> file = render::EncodeJpeg(grey, 50);
   Write(folder / "jpeg",
         RosBytes('\24').Header("camera").Text("jpeg").Text({file.begin(), file.end()}).bytes());
+  const std::vector<std::uint8_t> png = render::EncodePng(grey);
+  const std::string head(12, '\0');
+  Write(folder / "depth", RosBytes('\24')
+                              .Header("camera")
+                              .Text("16UC1; compressedDepth png")
+                              .Text(head + std::string(png.begin(), png.end()))
+                              .bytes());
+}
+
+// Temperature, illuminance, pressure, humidity: a value and its variance.
+void WriteValues(const fs::path& folder) {
+  const char* const names[] = {"temperature", "illuminance", "fluid_pressure", "humidity"};
+  for (int i = 0; i < 4; ++i) {
+    Write(
+        folder / names[i],
+        RosBytes(static_cast<char>(21 + i)).Header("jRightKnee").Reals<double>({45.0, 0}).bytes());
+  }
 }
 
 void WriteMarkers(const fs::path& folder) {
@@ -517,6 +534,7 @@ void WriteMarkers(const fs::path& folder) {
   cloud.Reals<float>({1, 2, 3, 0, 4, 5, 6, 1}).Byte(1);
   Write(folder / "cloud", cloud.bytes());
   WriteMaps(folder);
+  WriteValues(folder);
   Write(folder / "not_finite",
         RosBytes('\0')
             .Header("")

@@ -171,28 +171,30 @@ TEST(ShownMessages, AMeasuredValueIsASphereInItsColour) {
   style.scale = PointScale{"temperature", 0, 90, Rgb{0, 1, 0}, Rgb{1, 0, 0}};
   ShownMarkers markers = ShownOf(effort, style);
   ASSERT_THAT(markers, SizeIs(1));
-  EXPECT_EQ(markers[0].type, Marker::SPHERE_LIST);
+  EXPECT_EQ(markers[0].type, Marker::SPHERE);
   EXPECT_EQ(markers[0].header.frame_id, "cart");
-  ASSERT_THAT(markers[0].points, SizeIs(1));
   EXPECT_NEAR(markers[0].scale.x, 0.15, 1e-12);
-  EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{128, 128, 0}));
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{128, 128, 0}));
   style.scale->by = "intensity";
-  EXPECT_THAT(ShownOf(effort, style).at(0).colors, SizeIs(0)) << "it has no such number";
+  EXPECT_EQ(RgbOf(ShownOf(effort, style).at(0).color), (std::array<int, 3>{255, 255, 255}))
+      << "it has no such number";
+  style.has_spheres = false;
+  EXPECT_EQ(ShownOf(effort, style).at(0).type, Marker::POINTS) << "a cube of this size";
 
   // RViz's own scales.
   effort.temperature = 100;
-  EXPECT_EQ(RgbOf(ShownOf(effort).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 0}));
+  EXPECT_EQ(RgbOf(ShownOf(effort).at(0).color), (std::array<int, 3>{255, 0, 0}));
   effort.temperature = std::nan("");
-  EXPECT_THAT(ShownOf(effort).at(0).colors, SizeIs(1));
+  EXPECT_THAT(ShownOf(effort), SizeIs(1));
   auto light = InFrame<sensor_msgs::Illuminance>();
   light.illuminance = 1000;
-  EXPECT_EQ(RgbOf(ShownOf(light).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 255}));
+  EXPECT_EQ(RgbOf(ShownOf(light).at(0).color), (std::array<int, 3>{255, 0, 255}));
   auto pressure = InFrame<sensor_msgs::FluidPressure>();
   pressure.fluid_pressure = 98'000;
-  EXPECT_EQ(RgbOf(ShownOf(pressure).at(0).colors.at(0)), (std::array<int, 3>{255, 0, 0}));
+  EXPECT_EQ(RgbOf(ShownOf(pressure).at(0).color), (std::array<int, 3>{255, 0, 0}));
   auto damp = InFrame<sensor_msgs::RelativeHumidity>();
   damp.relative_humidity = 0.4;
-  EXPECT_EQ(RgbOf(ShownOf(damp).at(0).colors.at(0)), (std::array<int, 3>{0, 255, 0}));
+  EXPECT_EQ(RgbOf(ShownOf(damp).at(0).color), (std::array<int, 3>{0, 255, 0}));
 }
 
 TEST(ShownMessages, AScanHasThePointsWithinItsRange) {

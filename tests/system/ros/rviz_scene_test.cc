@@ -59,9 +59,9 @@ Visualization Manager:
     - {Class: rviz/Temperature, Name: Effort, Enabled: true, Value: true, Topic: /effort, Alpha: 1,
        Style: Spheres, Size (m): 0.3, Color Transformer: Intensity, Channel Name: temperature,
        Use rainbow: false, Invert Rainbow: true, Autocompute Intensity Bounds: false,
-       Min Intensity: 0, Max Intensity: 90, Min Color: 0; 255; 255, Max Color: 255; 0; 255}
+       Min Intensity: 0, Max Intensity: 90, Min Color: 255; 0; 0, Max Color: 255; 0; 200}
     - {Class: rviz/WrenchStamped, Name: Push, Enabled: true, Value: true, Topic: /push, Alpha: 1,
-       Force Color: 255; 140; 0, Force Arrow Scale: 0.005, Torque Arrow Scale: 0, Arrow Width: 0.4,
+       Force Color: 255; 140; 0, Force Arrow Scale: 0.005, Torque Arrow Scale: 0, Arrow Width: 0.6,
        Hide Small Values: true}
     - {Class: rviz/Path, Name: Plan, Enabled: true, Value: true, Topic: /plan, Alpha: 1,
        Line Style: Billboards, Line Width: 0.04, Color: 20; 220; 30}
@@ -96,7 +96,7 @@ constexpr std::array<Thing, 8> kThings = {{{"base", {26, 64, 230}},
                                            {"hand", {230, 204, 13}},
                                            {"cloud", {230, 30, 220}},
                                            {"heights", {0, 255, 255}},
-                                           {"effort", {128, 128, 255}},
+                                           {"effort", {255, 0, 100}},
                                            {"push", {255, 140, 0}},
                                            {"path", {20, 220, 30}},
                                            {"wall", {230, 30, 20}}}};
@@ -189,7 +189,8 @@ class RVizScene : public testing::RVizProgram {
   static tf2_msgs::TFMessage WhereThingsStand() {
     tf2_msgs::TFMessage message;
     message.transforms = {Standing("base", 1.3, 0.6, 0, -1.2),
-                          Standing("sensor", 0.2, -1.3, 1.2, 0.5)};
+                          Standing("sensor", 0.2, -1.3, 1.2, 0.5),
+                          Standing("tool", 0.4, 1.2, 0.9, 0.5)};
     return message;
   }
 
@@ -202,8 +203,8 @@ class RVizScene : public testing::RVizProgram {
 
   static geometry_msgs::WrenchStamped Push() {
     geometry_msgs::WrenchStamped push;
-    push.header.frame_id = "sensor";
-    push.wrench.force.z = 100;
+    push.header.frame_id = "tool";
+    push.wrench.force.z = 150;
     push.wrench.torque.x = 5;
     return push;
   }
