@@ -279,7 +279,7 @@ Visualization Manager:
                   "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)", "(size=10)",
                   "(color=#0000ff,alpha=0.5,size=0.75)", "(alpha=0.25,scheme=costmap)", "",
                   "(color=#19ff00)", "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
-                  "(by=ring,from=5,to=1e+12,low=#0000ff,high=#ff0000)", "(by=_)", ""));
+                  "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark : {"'': Covariance is not drawn", "Draw Behind 'true': it is drawn in",
                              "Color Scheme 'raw' is drawn as 'map'",
                              "Use Fixed Frame 'false': the axis is that of the scene",
@@ -384,7 +384,7 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(torque_color=5)",
                           "/a(small=no)",
                           "/a(rainbow=no)",
-                          "/a(width=1)",
+                          "/a(height=1)",
                           "/a(color)",
                           "(size=1)",
                           "/a b"}) {
