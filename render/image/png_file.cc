@@ -115,9 +115,8 @@ class PngInMemory {
  private:
   // The destructor does not run for a constructor that throws.
   [[noreturn]] void Fail(const std::string& why) {
-    const std::string kept = why;
     png_image_free(&header_);
-    throw std::runtime_error(kept);
+    throw std::runtime_error(why);
   }
 
   png_image header_ = {};
