@@ -145,9 +145,9 @@ void ShownTopicsValue::Parse(const std::string& text) {
 }
 
 std::string ShownTopicsValue::Expected() const {
-  return "up to 64 topics with commas between, such as "
-         "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes),/"
-         "scan(by=z,from=0,to=2) (size in m)";
+  return "up to " + std::to_string(kMostShownTopics) +
+         " topics with commas between, such as /walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),"
+         "/goal(shape=axes),/scan(by=z,from=0,to=2) (size in m)";
 }
 
 }  // namespace kinescope::app

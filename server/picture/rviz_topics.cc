@@ -23,6 +23,9 @@ struct ShownProperties {
   const char* shapes = nullptr;  // the property that says Axes, in place of an arrow
 };
 constexpr char kNone[] = "";  // no property has this name
+constexpr ShownProperties OfPoints(const char* kind) {
+  return {kind, nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"};
+}
 constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/PointStamped", "Color", {"Radius"}},
     {"rviz/Pose", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Shape"},
@@ -33,13 +36,13 @@ constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/Polygon", "Color"},
     {"rviz/GridCells", "Color"},
     {"rviz/Map", kNone},
-    {"rviz/LaserScan", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/PointCloud", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/PointCloud2", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/Temperature", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/Illuminance", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/FluidPressure", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
-    {"rviz/RelativeHumidity", nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"},
+    OfPoints("rviz/LaserScan"),
+    OfPoints("rviz/PointCloud"),
+    OfPoints("rviz/PointCloud2"),
+    OfPoints("rviz/Temperature"),
+    OfPoints("rviz/Illuminance"),
+    OfPoints("rviz/FluidPressure"),
+    OfPoints("rviz/RelativeHumidity"),
     {"rviz/WrenchStamped", "Force Color"}};
 constexpr const char* kWrenchDisplay = "rviz/WrenchStamped";
 

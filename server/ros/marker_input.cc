@@ -8,8 +8,10 @@
 #include <set>
 #include <utility>
 
+#include "core/system/errors.h"
 #include "server/ros/point_colors.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/shown_messages.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
@@ -258,5 +260,11 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
 }
 
 std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
+
+void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame) {
+  if (const auto refusal = store.Apply(topic, AxesOf(frame.name, frame.style), 0)) {
+    throw UsageError("--marker_topics: " + refusal->text);
+  }
+}
 
 }  // namespace kinescope::ros_bridge

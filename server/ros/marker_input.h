@@ -86,4 +86,8 @@ class MarkerStore {
   std::vector<Lost> lost_;
 };
 
+/// Puts the axes of a frame into the store, for good. @pre frame.is_frame
+/// @throws UsageError if they cannot be shown
+void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame);
+
 }  // namespace kinescope::ros_bridge

@@ -47,10 +47,10 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string reference_f
       tf_(std::move(tf)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
-    if (!topic.is_frame) {
+    if (topic.is_frame) {
+      AddAxes(store_, i, topic);
+    } else {
       counters_[topic.name];  // shown even without messages
-    } else if (const auto refusal = store_.Apply(i, AxesOf(topic.name, topic.style), 0)) {
-      throw UsageError("--marker_topics: " + refusal->text);
     }
   }
 }

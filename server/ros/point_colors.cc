@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "server/ros/shown_parts.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -61,18 +63,15 @@ std::vector<std_msgs::ColorRGBA> ColorsOf(const std::vector<double>& values,
   constexpr double kNarrow = 0.001, kHuge = 1e20;
   const double extent = bounds.to - bounds.from;
   const double range = extent != 0 ? extent : AxisOf(style) ? kNarrow : kHuge;
+  ShownStyle of_value;
+  of_value.alpha = style.alpha;
   std::vector<std_msgs::ColorRGBA> colors;
   colors.reserve(values.size());
   for (const double value : values) {
     const double share =
         std::isfinite(value) ? std::clamp((value - bounds.from) / range, 0.0, 1.0) : 0;
-    const Rgb rgb = ColorAt(share, scale);
-    std_msgs::ColorRGBA color;
-    color.r = static_cast<float>(rgb[0]);
-    color.g = static_cast<float>(rgb[1]);
-    color.b = static_cast<float>(rgb[2]);
-    color.a = static_cast<float>(style.alpha.value_or(1));
-    colors.push_back(color);
+    of_value.color = ColorAt(share, scale);
+    colors.push_back(In(of_value, Color(0, 0, 0)));
   }
   return colors;
 }

@@ -10,7 +10,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/system/errors.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 #include "server/ros/names.h"
@@ -52,20 +51,14 @@ bool IsWhole(const BagMessage& message) { return message.bytes.size() == message
 
 BagSurroundings::BagSurroundings(const GraphView& view) : shown_topics_(ByName(view.topics)) {
   for (const ShownTopic& topic : view.topics) {
-    if (topic.is_frame) AddAxes(topic);
+    if (!topic.is_frame) continue;
+    // A topic begins with a slash, this name does not.
+    AddAxes(store_, topics_.try_emplace("tf:" + topic.name, topics_.size()).first->second, topic);
+    has_markers_ = true;
   }
   for (const GraphRobot& robot : view.robots) {
     robots_.push_back({RobotFrames(robot.robot, robot.tf_prefix), JointStatesOf(robot)});
   }
-}
-
-void BagSurroundings::AddAxes(const ShownTopic& frame) {
-  // A topic begins with a slash, this name does not.
-  const std::size_t number = topics_.try_emplace("tf:" + frame.name, topics_.size()).first->second;
-  if (const auto refusal = store_.Apply(number, AxesOf(frame.name, frame.style), 0)) {
-    throw UsageError("--marker_topics: " + refusal->text);
-  }
-  has_markers_ = true;
 }
 
 bool BagSurroundings::IsUsed(const BagConnection& connection) const {

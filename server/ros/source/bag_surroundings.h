@@ -54,7 +54,6 @@ class BagSurroundings {
     std::string joint_states;  // topic
   };
 
-  void AddAxes(const ShownTopic& frame);
   const char* Decode(const BagMessage& message);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
   void TakeShown(const BagMessage& message, SourceCounters& counters);
