@@ -39,15 +39,17 @@ async function open(url, options) {
 }
 const lines = async () => (await readFile(file, 'utf8')).trim().split('\n').map((line) => JSON.parse(line));
 const textOf = (page, id) => page.evaluate((which) => document.getElementById(which).textContent, id);
-async function saidIs(page, pattern) {
+async function textIs(page, id, pattern) {
   try {
     await page.waitForFunction(
-      (source) => new RegExp(source).test(document.getElementById('mark-said').textContent), pattern.source, LONG);
+      ([which, source]) => new RegExp(source).test(document.getElementById(which).textContent), [id, pattern.source], LONG);
   } catch (cause) {
     const [said, banner, status] = [await textOf(page, 'mark-said'), await textOf(page, 'banner'), await textOf(page, 'status-word')];
     throw new Error(`expected ${pattern}; the page says “${said}”, its banner “${banner}”, its lamp ${status}`, { cause });
   }
 }
+const saidIs = (page, pattern) => textIs(page, 'mark-said', pattern);
+const bannerIs = (page, pattern) => textIs(page, 'banner', pattern);
 const entries = (page) => page.$$eval('#mark-list .go', (all) => all.map((each) => each.querySelector('span').textContent));
 const entriesAre = (page, texts) => page.waitForFunction((wanted) => JSON.stringify(
   [...document.querySelectorAll('#mark-list .go span')].map((each) => each.textContent)) === wanted, JSON.stringify(texts), LONG);
@@ -70,51 +72,52 @@ test('a key marks the sample on the screen, also of a viewer of former moments, 
   assert.deepEqual(besidesOutage(problems), []);
 });
 
-/** No mark reaches the server from now on. A request of the moment in which the browser takes the order may still pass. */
-async function cutOff(page) {
-  await page.route('**/api/v1/mark', (route) => route.abort());
-  const passes = () => fetch('api/v1/mark', { method: 'POST' }).then(() => true, () => false);
-  while (await page.evaluate(passes)) continue;
+/** A page whose marks take the way that way.of says. It is laid before the page is loaded: a request of the moment in which
+ *  the browser takes such an order would still go its own way. */
+async function openWithWay() {
+  const way = { of: (route) => route.continue() };
+  const visit = await open(site.url, { beforeLoad: (fresh) => fresh.route('**/api/v1/mark', (route) => way.of(route)) });
+  return { ...visit, way };
 }
 
 test('marks that are set while the server cannot be reached are set when it can be', async () => {
-  const { page, close } = await open(site.url);
+  const { page, way, close } = await openWithWay();
+  const passes = way.of, isCut = (route) => route.abort();
   const before = (await lines()).length;
-  await cutOff(page);
+  way.of = isCut;
   await page.keyboard.press('1');
   await saidIs(page, /^1 mark waits for the server$/);
   const seen = Number(await page.textContent('#sample'));
   await page.keyboard.press('Shift+Digit2');
   await saidIs(page, /^2 marks wait for the server$/);
   assert.equal((await lines()).length, before);
-  await page.unroute('**/api/v1/mark');
+  way.of = passes;
   await saidIs(page, /^Set now: 2 marks that waited for the server$/);
   const set = (await lines()).slice(before);
   assert.deepEqual(set.map(({ text, is_open }) => [text, is_open]), [['grasp', false], ['lift', true]]);
   assert.ok(set[0].at.counter <= seen, 'the sample that was on the screen, not that of the sending');
   // A server that was started again does not have the moment, but may have another one with its number. The page sends no
   // mark while it waits for this answer, so it knows of the other start before the first mark that could be set.
-  await cutOff(page);
+  way.of = isCut;
   await page.keyboard.press('3');
   await saidIs(page, /^1 mark waits for the server$/);
   await page.route('**/api/v1/marks?**', async (route) => {
     const answer = await (await route.fetch()).json();
-    await page.unroute('**/api/v1/mark');
+    way.of = passes;
     await route.fulfill({ json: { ...answer, run_micros: answer.run_micros + 1 } });
   });
-  await page.waitForFunction(() => /^Not set while the server was away: “.*”: the server was started again/.test(
-    document.getElementById('banner').textContent), null, LONG);
+  await bannerIs(page, /^Not set while the server was away: “.*”: the server was started again/);
   assert.equal((await lines()).length, before + 2);
   await close();
 });
 
 test('a mark to which the server does not answer says so, and is set when it answers', async () => {
-  const { page, close } = await open(site.url);
+  const { page, way, close } = await openWithWay();
   let letThrough;
-  await page.route('**/api/v1/mark', async (route) => {
+  way.of = async (route) => {
     await new Promise((resolve) => { letThrough = resolve; });
     await route.continue();
-  });
+  };
   await page.keyboard.press('1');
   await saidIs(page, /^The server has not answered yet$/);
   letThrough();
@@ -201,20 +204,18 @@ test('marks of a recording are at its samples again when it is served again', as
 });
 
 test('a mark of a moment that is gone, or that has not come, is refused in words, and live goes on', async () => {
-  const { page, close } = await open(site.url);
+  const { page, way, close } = await openWithWay();
+  const passes = way.of;
   const count = (await lines()).length;
-  let wrong = /** @type {number|null} */ (null);  // state that is sent in place of the one on the screen
-  await page.route('**/api/v1/mark', (route) => route.continue(wrong === null ? {} : {
-    postData: JSON.stringify({ ...route.request().postDataJSON(), state: wrong }) }));
   for (const [state, sentence] of [[0, /^The mark was not set: state 0 is no longer kept \(--history_minutes\)$/],
     [1e9, /^The mark was not set: state 1000000000 has not come yet; the newest one is \d+$/]]) {
-    wrong = state;
+    way.of = (route) => route.continue({ postData: JSON.stringify({ ...route.request().postDataJSON(), state }) });
     await page.keyboard.press('1');
-    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').textContent), sentence.source, LONG);
+    await bannerIs(page, sentence);
     assert.equal(await page.textContent('#status-word'), 'Live');
   }
   assert.equal((await lines()).length, count);
-  wrong = null;
+  way.of = passes;
   await page.keyboard.press('1');
   await saidIs(page, /^Marked: “grasp”/);
   await close();
