@@ -174,8 +174,8 @@ struct SceneState {
   /// Reference poses beside the people of a live scene. Their people have characters from
   /// kFirstGhost on, one for each.
   std::vector<Ghost> ghosts;
-  /// Increases with every change of `robots` or `markers`; 0: there were none yet, or they are not
-  /// known, as of former states.
+  /// Increases with every change of `robots` or `markers` but where a robot has its links; 0: there
+  /// were none yet.
   std::uint64_t surroundings = 0;
   /// External markers. Shared, so that unchanged markers cost nothing; a changed marker is a new
   /// object. Never null. A marker with a defect is reported and not rendered.

@@ -148,10 +148,11 @@ export class Scene {
   }
 
   /** External markers and robots.
-   *  @param {number|null} revision  null: none, or not known
+   *  @param {number|null} revision  null: none
+   *  @param {number|null} former  number of the former state that is shown; null: the newest one is
    *  @param {number} now */
-  updateSurroundings(revision, now) {
-    this.#surroundings.update(revision, now);
+  updateSurroundings(revision, former, now) {
+    this.#surroundings.update(revision, former, now);
   }
 
   /** What is not shown as it should be, one line each. */

@@ -4,6 +4,8 @@ import { readLabelText, readSurroundings } from './messages.js';
 import { request } from './server_api.js';
 
 const RETRY_MILLIS = 1000;
+const BEING_MADE = 202;  // the status of an answer: those of a former state are made when they are asked for
+const BEING_MADE_MILLIS = 100;
 const NOTE_HEIGHT = 0.05;   // m, of a capital in the name of a missing mesh
 const CAPITAL_SHARE = 0.73; // of a font's size
 const TEXT_PIXELS = 64;     // size of the font of a label's texture
@@ -16,7 +18,8 @@ export class Surroundings {
   group = new THREE.Group();
   /** @type {string[]} */ problems = [];
   #shown = /** @type {number|null} */ (null);  // revision
-  #asked = { revision: /** @type {number|null} */ (null), at: -Infinity };
+  #asked = /** @type {number|null} */ (null);  // revision
+  #askAgainAt = -Infinity;  // browser's clock, ms
   #isLoading = false;
   #hidden = /** @type {readonly string[]} */ ([]);
   /** @type {THREE.Object3D[][]} */ #links = [];  // of the robots that move, by their numbers
@@ -54,14 +57,16 @@ export class Surroundings {
   }
 
   /** Shows those of the server as soon as they are loaded. Call it often.
-   *  @param {number|null} revision  null: there are none, or those of the moment on the screen are not known
+   *  @param {number|null} revision  null: there are none
+   *  @param {number|null} former  the number of the state on the screen; null: it is the newest one
    *  @param {number} now */
-  update(revision, now) {
+  update(revision, former, now) {
     if (revision === null && this.#shown !== null) this.#show(null, null, []);
-    const isAsked = this.#asked.revision === revision && now - this.#asked.at < RETRY_MILLIS;
+    const isAsked = this.#asked === revision && now < this.#askAgainAt;
     if (revision === null || revision === this.#shown || this.#isLoading || isAsked) return;
-    this.#asked = { revision, at: now };
-    this.#load(revision);
+    this.#asked = revision;
+    this.#askAgainAt = now + RETRY_MILLIS;
+    this.#load(revision, former);
   }
 
   /** What is shown, and what is on its way. */
@@ -75,15 +80,21 @@ export class Surroundings {
     return revision === this.#shown && !this.#isLoading;
   }
 
-  /** @param {number} revision */
-  async #load(revision) {
+  /** @param {number} revision
+   *  @param {number|null} former */
+  async #load(revision, former) {
     this.#isLoading = true;
     try {
-      const answer = await request(`api/v1/surroundings.glb?t=${revision}`);
+      const answer = await request(`api/v1/surroundings.glb?${former === null ? `t=${revision}` : `state=${former}`}`);
+      if (answer.status === BEING_MADE) {
+        this.#askAgainAt = performance.now() + BEING_MADE_MILLIS;
+        this.#isLoading = false;
+        return;
+      }
       const bytes = await answer.arrayBuffer();
       const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
       const { scene } = await new GLTFLoader().parseAsync(bytes, '');
-      if (this.#asked.revision === revision) this.#show(revision, scene, readSurroundings(scene.userData, 'extras').problems);
+      if (this.#asked === revision) this.#show(revision, scene, readSurroundings(scene.userData, 'extras').problems);
     } catch {
       this.problems = ['Could not load the external markers and robots'];
     }
@@ -99,7 +110,7 @@ export class Surroundings {
     this.#links = [];
     this.#shown = revision;
     this.problems = problems;
-    if (revision === null) this.#asked.revision = null;
+    if (revision === null) this.#asked = null;
     if (scene !== null) {
       scene.traverse(prepare);
       this.group.add(scene);

@@ -153,8 +153,7 @@ void TakeColumn(const std::uint8_t*& from, std::size_t count, std::size_t stride
 // What the form keeps of a state: no value of its moment that is not visited.
 SceneState WithoutUnkept(const SceneState& state) {
   SceneState form = state;
-  form.robots.clear();
-  form.markers.clear();
+  form.markers.clear();  // of History, by number
   form.images.clear();
   form.ghosts.clear();
   form.surroundings = 0;
@@ -173,6 +172,12 @@ SceneState WithoutUnkept(const SceneState& state) {
     person.forces = BodyForces();
   }
   for (TrackedObject& object : form.objects) object.stamp_nanos = 0;
+  for (RobotState& robot : form.robots) {
+    robot.bounds.setEmpty();
+    for (Eigen::Isometry3d& link : robot.world_from_link) {
+      link.matrix().topRows<3>().setConstant(std::nan(""));
+    }
+  }
   return form;
 }
 
@@ -180,6 +185,9 @@ std::size_t RoomOf(const SceneState& form) {
   std::size_t bytes = sizeof form + form.people.size() * sizeof(PersonState);
   for (const PersonState& person : form.people) bytes += person.loads.size() * sizeof(JointLoad);
   for (const TrackedObject& object : form.objects) bytes += sizeof object + object.name.size();
+  for (const RobotState& robot : form.robots) {
+    bytes += sizeof robot + robot.world_from_link.size() * sizeof robot.world_from_link[0];
+  }
   return bytes;
 }
 
@@ -204,6 +212,11 @@ bool SameForm(const SceneState& a, const SceneState& b) {
          std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
                     [](const TrackedObject& x, const TrackedObject& y) {
                       return x.character == y.character && x.number == y.number && x.name == y.name;
+                    }) &&
+         std::equal(a.robots.begin(), a.robots.end(), b.robots.begin(), b.robots.end(),
+                    [](const RobotState& x, const RobotState& y) {
+                      return x.name == y.name && x.model == y.model && x.moves == y.moves &&
+                             x.problem == y.problem;
                     }) &&
          std::equal(a.left_out.begin(), a.left_out.end(), b.left_out.begin(), b.left_out.end(),
                     [](const LeftOutPerson& x, const LeftOutPerson& y) {

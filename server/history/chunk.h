@@ -12,7 +12,7 @@
 namespace kinescope::history {
 
 /// Whether both have the same people with the same models, gloves, props and scored joints, the
-/// same tracked objects and the same people left out: what a chunk keeps once.
+/// same tracked objects, robots and people left out: what a chunk keeps once.
 bool SameForm(const SceneState& a, const SceneState& b);
 
 class Chunk {
@@ -39,7 +39,8 @@ class Chunk {
 
   /// A state of Unpack(). Lengths are rounded to 0.01 mm, orientations to 0.004 degrees, forces to
   /// 0.1 N and ratios to 0.00001. What the history does not keep is empty: the samples as they were
-  /// received, joint angles and forces, velocities, robots and external markers.
+  /// received, joint angles and forces, velocities, and external markers. Links of robots that are
+  /// not drawn are nowhere.
   std::shared_ptr<SceneState> At(const Rows& rows, std::size_t row) const;
 
   std::uint64_t first_number() const { return first_number_; }

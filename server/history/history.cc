@@ -39,6 +39,7 @@ History::History(HistoryLimits limits, Complete complete)
     : limits_(limits),
       complete_(std::move(complete)),
       series_({limits.nanos, limits.series_bytes}),
+      markers_(limits.marker_bytes),
       worker_([this] { Work(); }) {}
 
 History::~History() {
@@ -60,6 +61,7 @@ void History::Add(std::shared_ptr<const SceneState> state) {
       ++left_out_;
       return;
     }
+    markers_.Add(*state);
     open_.push_back(std::move(state));
     Forget();
     CountRun();
@@ -107,6 +109,8 @@ void History::Forget() {
     bytes_ -= chunks_.front()->bytes();
     chunks_.pop_front();
   }
+  if (chunks_.empty() && open_.empty()) return;
+  markers_.ForgetBefore(chunks_.empty() ? open_.front()->number : chunks_.front()->first_number());
 }
 
 std::optional<Extent> History::extent() const {
@@ -137,6 +141,11 @@ std::size_t History::bytes() const {
   return bytes_;
 }
 
+std::size_t History::marker_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return markers_.bytes();
+}
+
 // The newest state whose key is at most `wanted`, else the oldest one.
 template <class Key>
 std::shared_ptr<const SceneState> History::Find(typename Key::Value wanted) const {
@@ -164,6 +173,10 @@ std::shared_ptr<const SceneState> History::Find(typename Key::Value wanted) cons
 std::shared_ptr<const SceneState> History::Made(const Chunk& chunk, const Chunk::Rows& rows,
                                                 std::size_t row) const {
   std::shared_ptr<SceneState> state = chunk.At(rows, row);
+  {
+    const std::lock_guard lock(mutex_);
+    state->markers = markers_.Of(state->number);
+  }
   if (complete_) complete_(*state);
   return state;
 }

@@ -17,6 +17,7 @@
 
 #include "core/scene_state.h"
 #include "server/history/chunk.h"
+#include "server/history/marker_log.h"
 #include "server/history/series.h"
 
 namespace kinescope::history {
@@ -25,6 +26,8 @@ struct HistoryLimits {
   std::int64_t nanos = 600'000'000'000;             // older states are forgotten
   std::size_t bytes = std::size_t{500} << 20;       // and the oldest of more than that
   std::size_t series_bytes = SeriesLimits().bytes;  // of the series, beside the states
+  // Of external markers, beside the states: older states than these bytes reach have none.
+  std::size_t marker_bytes = std::size_t{64} << 20;
 };
 
 /// States that are wanted: the newest one at `from_nanos`, as History::At(), and those after it up
@@ -56,8 +59,9 @@ class History {
 
   /// nullopt before the first state.
   std::optional<Extent> extent() const;
-  std::size_t bytes() const;       // of the compressed states
-  std::uint64_t left_out() const;  // states that were not kept
+  std::size_t bytes() const;         // of the compressed states
+  std::size_t marker_bytes() const;  // of the markers of all states
+  std::uint64_t left_out() const;    // states that were not kept
 
   /// The newest state that was made at or before `nanos`; the oldest kept one if all are newer.
   /// Null before the first state.
@@ -109,6 +113,7 @@ class History {
   Chunks chunks_;
   std::deque<std::shared_ptr<const SceneState>> open_;  // newer than all chunks
   std::size_t run_ = 0;  // states at the front of `open_` that are of one form
+  MarkerLog markers_;
   std::size_t bytes_ = 0;
   std::uint64_t left_out_ = 0;
   bool is_working_ = false, is_ending_ = false;

@@ -3,7 +3,9 @@
 /// state's *form* (SameForm); of the rest, see WithoutUnkept().
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <type_traits>
 
 #include "core/scene_state.h"
 
@@ -112,6 +114,19 @@ void VisitPerson(Column& column, Person& person) {
   VisitForces(column, person.forces);
 }
 
+// Of its links those that are drawn: the others have no place in former states.
+template <class Column, class Robot>
+void VisitRobot(Column& column, Robot& robot) {
+  for (const std::size_t link : LinksToDraw(*robot.model)) {
+    auto& world_from_link = robot.world_from_link[link];
+    urdf::Pose pose{world_from_link.translation(), Eigen::Quaterniond(world_from_link.linear())};
+    VisitPose(column, pose);
+    if constexpr (!std::is_const_v<Robot>) {
+      world_from_link = Eigen::Translation3d(pose.position) * pose.orientation;
+    }
+  }
+}
+
 template <class Column, class State>
 void VisitState(Column& column, State& state) {
   column.Whole(state.number);  // the first two: Chunk::Rows
@@ -125,8 +140,10 @@ void VisitState(Column& column, State& state) {
   column.Number(state.rate_hz, kHertz);
   column.Number(state.floor_z, kMetre);
   column.Number(state.view_heading, kRatio);
+  column.Whole(state.surroundings);
   for (auto& person : state.people) VisitPerson(column, person);
   for (auto& object : state.objects) VisitPose(column, object.pose);
+  for (auto& robot : state.robots) VisitRobot(column, robot);
 }
 
 }  // namespace kinescope::history

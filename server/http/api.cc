@@ -420,8 +420,6 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     const CameraImage& image = *state->images[i];
     images.push_back({{"name", image.name}, {"is_old", IsOld(image, state->made_nanos)}});
   }
-  // Those of a former moment are not known.
-  const bool has_surroundings = extras.surroundings && state != nullptr && state->surroundings != 0;
   return Text({{"details",
                 {{"source", state != nullptr ? state->source : std::string()},
                  {"camera", live_camera},
@@ -434,7 +432,7 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                  {"images", std::move(images)},
                  {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
                  {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()},
-                 {"surroundings", has_surroundings ? json(*extras.surroundings) : json()}}}});
+                 {"surroundings", extras.surroundings ? json(*extras.surroundings) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,

@@ -171,7 +171,9 @@ void Hub::LookBack(HubClient& client, const struct LookBack& wanted) {
   while (most > 1 && budget.WaitFor(static_cast<double>(most), now).count() > 0) most /= 2;
   std::optional<PastAnswer> answer;
   if (history_ != nullptr) {
-    const auto details = [&](const SceneState& state) { return DetailsOf(&state); };
+    const auto details = [&](const SceneState& state) {
+      return DetailsOf(&state, state.surroundings);
+    };
     answer = AnswerLookBack(wanted, most, *history_, details, Moment());
   }
   if (!answer) {
@@ -235,16 +237,17 @@ SharedBytes Hub::EncodeNewestState() const {
 
 SharedBytes Hub::EncodeDetails() const {
   const std::shared_ptr<const SceneState> state = states_.Get();
-  const std::string text = DetailsOf(state.get());
+  const auto surroundings = surroundings_ ? surroundings_() : nullptr;
+  const bool has_any = state != nullptr && state->surroundings != 0 && surroundings != nullptr;
+  const std::string text = DetailsOf(state.get(), has_any ? surroundings->revision : 0);
   return Share(Bytes(text.begin(), text.end()));
 }
 
-std::string Hub::DetailsOf(const SceneState* state) const {
+std::string Hub::DetailsOf(const SceneState* state, std::uint64_t surroundings) const {
   DetailsExtras extras;
   extras.playback = playback_ ? playback_() : nullptr;
   if (marks_ != nullptr && history_ != nullptr) extras.marks_revision = marks_->revision();
-  const auto surroundings = surroundings_ ? surroundings_() : nullptr;
-  if (surroundings != nullptr) extras.surroundings = surroundings->revision;
+  if (surroundings != 0) extras.surroundings = surroundings;
   return DetailsJson(state, camera_, feed_ != nullptr, extras);
 }
 

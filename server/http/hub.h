@@ -123,7 +123,8 @@ class Hub {
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
-  std::string DetailsOf(const SceneState* state) const;
+  /// `surroundings`: their revision, 0: none.
+  std::string DetailsOf(const SceneState* state, std::uint64_t surroundings) const;
 
   const Latest<SceneState>& states_;
   const Latest<Picture>& pictures_;

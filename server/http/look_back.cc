@@ -18,7 +18,8 @@ class RunDetails {
 
   // "": those of the state before.
   std::string For(const SceneState& state) {
-    const bool is_other = number_ == 0 || !history::SameForm(last_, state);
+    const bool is_other = number_ == 0 || !history::SameForm(last_, state) ||
+                          last_.surroundings != state.surroundings;
     const bool is_due = is_other || number_ % kStatesPerDetails == 0;
     ++number_;
     if (is_other) last_ = state;

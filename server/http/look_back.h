@@ -28,8 +28,8 @@ struct PastAnswer {
 };
 
 /// `most` states at most, in 1 to kMaxPastStates. Details change seldom, but cost more than their
-/// state: of a run, they come with the first state, when people or objects are others, and else
-/// with every sixteenth state if they differ. nullopt before the first state.
+/// state: of a run, they come with the first state, when people, objects or what is beside them are
+/// others, and else with every sixteenth state if they differ. nullopt before the first state.
 std::optional<PastAnswer> AnswerLookBack(const LookBack& wanted, std::size_t most,
                                          const history::History& history,
                                          const DetailsOfState& details, const StateMoment& moment);

@@ -472,7 +472,44 @@ Answer Router::Skin(const Request& request, Role /*role*/) const {
                        "application/octet-stream", request);
 }
 
+tl::expected<std::shared_ptr<const SceneState>, Answer> Router::FormerState(
+    const std::string& value) const {
+  const auto wanted = ParseNumber<std::uint64_t>(value);
+  if (!wanted) {
+    return tl::unexpected(
+        Refuse(400, "bad state", "state=" + value + ": expected a whole number from 0 on"));
+  }
+  if (site_.history == nullptr) return tl::unexpected(Refuse(503, "no history", kNoHistory));
+  auto state = site_.history->Numbered(*wanted);
+  if (state == nullptr || state->number != *wanted) {
+    return tl::unexpected(RefuseMoment(*wanted, state.get()));
+  }
+  return state;
+}
+
+Answer Router::FormerSurroundings(const std::string& state, const Request& request) const {
+  const auto former = FormerState(state);
+  if (!former) return former.error();
+  if ((*former)->surroundings == 0 || !site_.former_surroundings) {
+    return ErrorAnswer(404, "nothing was beside the people: no external markers, and no robots");
+  }
+  const auto surroundings = site_.former_surroundings(*former);
+  if (surroundings == nullptr) {
+    Answer wait = JsonAnswer(R"({"wait": "what was beside the people is being made; ask again"})");
+    wait.status = 202;
+    return wait;
+  }
+  if (surroundings->glb.empty()) {
+    return ErrorAnswer(503, "what was beside the people cannot be made; the server's log says why");
+  }
+  return AnswerOfModel(surroundings->glb, "model/gltf-binary", request);
+}
+
 Answer Router::Surroundings(const Request& request, Role /*role*/) const {
+  const auto target = ParseTarget(request.target);
+  if (const auto state = target->query.find("state"); state != target->query.end()) {
+    return FormerSurroundings(state->second, request);
+  }
   const auto surroundings = site_.surroundings ? site_.surroundings() : nullptr;
   if (surroundings == nullptr) {
     return ErrorAnswer(404, "nothing is beside the people: no external markers, and no robots");
@@ -504,15 +541,9 @@ Answer Router::Snapshot(const Request& request, Role /*role*/) const {
       continue;
     }
     if (name == "state") {
-      const auto wanted = ParseNumber<std::uint64_t>(value);
-      if (!wanted)
-        return Refuse(400, "bad snapshot",
-                      "state=" + value + ": expected a whole number from 0 on");
-      if (site_.history == nullptr) return Refuse(503, "no history", kNoHistory);
-      snapshot.state = site_.history->Numbered(*wanted);
-      if (snapshot.state == nullptr || snapshot.state->number != *wanted) {
-        return RefuseMoment(*wanted, snapshot.state.get());
-      }
+      auto state = FormerState(value);
+      if (!state) return std::move(state).error();
+      snapshot.state = *std::move(state);
       continue;
     }
     if (name == "theme" && (value == "light" || value == "dark")) {

@@ -40,6 +40,7 @@ class Router {
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
     std::function<std::shared_ptr<const http::Surroundings>()> surroundings;  // may be null
+    GetFormerSurroundings former_surroundings;                                // may be null
     GetCameraFile camera_image;                                               // may be null
     marks::MarkBook* marks = nullptr;  // may be null: nothing can be marked
     Controls* controls = nullptr;      // may be null
@@ -117,6 +118,10 @@ class Router {
   Answer Marks(const Request& request, Role role) const;
   Answer SetMark(const Request& request, Role role) const;
   [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
+  /// The kept state of the number that `value` is.
+  [[nodiscard]] tl::expected<std::shared_ptr<const SceneState>, Answer> FormerState(
+      const std::string& value) const;
+  [[nodiscard]] Answer FormerSurroundings(const std::string& state, const Request& request) const;
   // router_controls.cc
   template <class Parse, class CarryOut>
   Answer Order(const Request& request, const char* what, Parse parse, CarryOut carry_out) const;

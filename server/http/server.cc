@@ -247,6 +247,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.history = config_.history;
   site.surroundings = config_.surroundings;
+  site.former_surroundings = config_.former_surroundings;
   site.camera_image = config_.camera_image;
   site.started_micros = WallNanos() / 1000;
   site.marks = config_.marks;

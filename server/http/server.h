@@ -42,6 +42,8 @@ struct Surroundings {
   std::uint64_t revision = 0;  // SceneState::surroundings of what it shows
   std::string glb;             // render/surroundings.h
 };
+using GetFormerSurroundings = std::function<std::shared_ptr<const Surroundings>(
+    const std::shared_ptr<const SceneState>& former)>;
 
 /// A picture of a camera as JPEG; null: it cannot be read. @param number  of the image in
 /// SceneState::images
@@ -141,6 +143,9 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// The newest that is made; null: none yet. Called on the server's thread. May be null.
   std::function<std::shared_ptr<const Surroundings>()> surroundings;
+  /// Of a former state; null: they are being made. Without content: they cannot be made. Called on
+  /// the server's thread, must return at once. May be null.
+  GetFormerSurroundings former_surroundings;
   /// Called on the server's thread, must return at once. May be null.
   GetCameraFile camera_image;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.

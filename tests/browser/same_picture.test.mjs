@@ -142,7 +142,11 @@ async function robotIsThere(url) {
   }
 }
 
-test('markers and a robot of other ROS nodes cover the same pixels on the page and in a snapshot', async () => {
+/** How many files of what is beside the people a page has loaded. */
+const loaded = () => performance.getEntriesByType('resource').filter(({ name, responseEnd }) =>
+  name.includes('surroundings.glb') && responseEnd > 0).length;
+
+test('markers and a robot of other ROS nodes cover the same pixels on the page, later too, and in a snapshot', async () => {
   const { env, stop } = await startMaster();
   const publisher = spawn(process.env.KINESCOPE_MARKER_PUBLISHER, [], { stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, ...env } });
   endWithTests(publisher);
@@ -159,8 +163,23 @@ test('markers and a robot of other ROS nodes cover the same pixels on the page a
   await close();
   const shown = await whatCovers(site, 'front', MARKERS, { 'status-word': 'Recording' });
   await saveScreenshot(shown.page, 'same_markers');
-  const sameCamera = await cameraOf(shown.page, 'front', shown.size);
+  const sameCamera = await cameraOf(shown.page, 'front', shown.size), { madeMicros } = await stateOf(shown.page);
+  const before = await shown.page.evaluate(loaded);
+  publisher.stdin.write('go\n');
+  while (await shown.page.evaluate(loaded) === before) await setTimeout(50);
+  const query = `&t=${(madeMicros / 1e6).toFixed(6)}`;
+  const now = await whatCovers(site, 'front', MARKERS, { 'status-word': 'Recording' });
+  const former = await whatCovers(site, 'front', { ...MARKERS, query }, { 'status-word': 'Recording' });
+  await saveScreenshot(former.page, 'same_markers_of_a_former_moment');
+  await now.close();
+  await former.close();
   await site.stop();
+  const everywhere = NOTHING_LEFT_OUT(shown.covered);
+  for (const [one, other] of [[shown.covered, former.covered], [former.covered, shown.covered]]) {
+    const { share } = found(one, other, everywhere, shown.size);
+    assert.ok(share >= 0.99, `${share.toFixed(4)} of the pixels are where they were`);
+  }
+  assert.ok(found(former.covered, now.covered, everywhere, shown.size).share < 0.2, 'the markers have gone, and the robot has moved');
   const snapshot = async (options, itsEnv) => {
     const { url, stop: stopIt } = await serve(file, [...live, ...sameCamera, ...options], itsEnv);
     if (options.length > 0) await robotIsThere(url);

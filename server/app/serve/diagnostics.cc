@@ -140,6 +140,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                       {"states", kept.last_number - kept.first_number + 1},
                       {"bytes", history->bytes()},
                       {"series_bytes", history->series().bytes()},
+                      {"marker_bytes", history->marker_bytes()},
                       {"left_out", history->left_out()}};
   }
   out["webhook"] = nullptr;

@@ -94,7 +94,7 @@ ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
   clips.view.style = options.style;
   clips.view.loads = options.loads_shown;
   clips.view.trails = options.trails;
-  clips.view.robot = options.robot.WithoutMoving();  // past states do not have the others
+  clips.view.robot = options.robot.WithoutMoving();
   clips.view.ghost = options.ghost;
   clips.view.ghost_opacity = options.ghost_opacity;
   clips.backend = options.backend;
@@ -267,6 +267,7 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   if (config.pictures && config.history) {
     config.clips = ClipsOf(options, config.scene);
     config.clip_options = PictureOptionsOf(config.clips->view, config.clips->backend);
+    config.clips->view.robot = {};  // former states have all robots
   }
   if (!config.ros) return config;
   if (!*options.ros_view) return config;

@@ -145,7 +145,10 @@ Server::Server(const ServeConfig& config)
   listener_.reset();
 }
 
-Server::~Server() { ros_desk_.Close(); }
+Server::~Server() {
+  ros_desk_.Close();
+  if (surroundings_) surroundings_->End();  // it asks the page for its viewers
+}
 
 void Server::StartRos(const ServeConfig& config) {
   ros_bridge::BridgeConfig bridge = *config.ros;
@@ -226,14 +229,17 @@ void Server::StartPage(const ServeConfig& config) {
     return stream ? StreamHealthJson(*stream) : std::string();
   };
   page.surroundings = [this] { return surroundings_made_.Get(); };
+  page.former_surroundings = [this](const std::shared_ptr<const SceneState>& former) {
+    return surroundings_->Of(former);
+  };
   page.camera_image = [this](std::size_t number, const auto& image) {
     return camera_files_.Of(number, image);
   };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
-  page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
-                [this] { return Diagnostics(); });
   surroundings_ = std::make_unique<SurroundingsLoop>([this] { return page_->clients() > 0; },
                                                      surroundings_made_);
+  page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
+                [this] { return Diagnostics(); });
   LogPage("page", *page_, http::Role::kOperator, config.shows_token, config.how_to_see_token);
   if (page.viewer_token.empty()) return;
   LogPage("page for viewers", *page_, http::Role::kViewer, config.shows_token,

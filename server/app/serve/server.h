@@ -110,9 +110,9 @@ class Server {
   std::unique_ptr<RosNews> ros_news_;  // with ros_
   std::unique_ptr<RosCameraLoop> ros_camera_;
   std::unique_ptr<ClipMaker> clips_;
-  std::unique_ptr<ControlDesk> desk_;  // the page's thread
-  std::optional<http::HttpServer> page_;
+  std::unique_ptr<ControlDesk> desk_;               // the page's thread
   std::unique_ptr<SurroundingsLoop> surroundings_;  // with page_
+  std::optional<http::HttpServer> page_;
 };
 
 }  // namespace kinescope::app

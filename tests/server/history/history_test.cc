@@ -87,6 +87,72 @@ TEST(History, CompletesWhatItDoesNotKeep) {
   });
 }
 
+// An arm of two links, of which the second one is drawn, and which has lost one link from state 100
+// on.
+RobotState ArmAt(std::uint64_t number) {
+  static const auto model = [] {
+    auto made = std::make_shared<urdf::RobotModel>();
+    made->links.resize(3);
+    made->links[1].visuals.resize(1);
+    made->links[2].visuals.resize(1);
+    return made;
+  }();
+  RobotState arm;
+  arm.name = "arm";
+  arm.model = model;
+  arm.moves = true;
+  const double turn = 0.01 * static_cast<double>(number);
+  arm.world_from_link.assign(
+      3, Eigen::Translation3d(1, turn, 0.5) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+  if (number >= 100) arm.world_from_link[2].matrix().topRows<3>().setConstant(std::nan(""));
+  return arm;
+}
+
+TEST(History, KeepsRobotsWhereTheyWereAndTheMarkersThatWereThere) {
+  History history;
+  const auto wall = std::make_shared<const SceneMarker>();
+  const auto goal = std::make_shared<const SceneMarker>();
+  for (std::uint64_t number = 1; number <= 130; ++number) {
+    const auto state = StateAt(number);
+    state->robots = {ArmAt(number)};
+    state->markers = {wall};
+    if (number >= 60) state->markers.push_back(goal);
+    state->surroundings = number >= 60 ? 2 : 1;
+    history.Add(state);
+  }
+  history.Settle();
+  const auto before = history.Numbered(59), after = history.Numbered(60);
+  EXPECT_EQ(before->markers, MarkerList({wall}));
+  EXPECT_EQ(before->surroundings, 1u);
+  EXPECT_EQ(after->markers, MarkerList({wall, goal}));
+  EXPECT_EQ(after->surroundings, 2u);
+  ASSERT_EQ(after->robots.size(), 1u);
+  const RobotState& arm = after->robots[0];
+  EXPECT_EQ(arm.model, ArmAt(60).model);
+  EXPECT_EQ(arm.name, "arm");
+  EXPECT_TRUE(arm.moves);
+  EXPECT_TRUE(arm.world_from_link[1].isApprox(ArmAt(60).world_from_link[1], 1e-4));
+  EXPECT_TRUE(arm.world_from_link[2].isApprox(ArmAt(60).world_from_link[2], 1e-4));
+  EXPECT_TRUE(std::isnan(arm.world_from_link[0].translation().x())) << "not drawn, so not kept";
+  const RobotState broken = history.Numbered(110)->robots.at(0);
+  EXPECT_TRUE(broken.world_from_link[1].isApprox(ArmAt(110).world_from_link[1], 1e-4));
+  EXPECT_TRUE(std::isnan(broken.world_from_link[2].translation().x()));
+}
+
+TEST(History, KeepsRobotsThatComeAndGo) {
+  History history;
+  for (std::uint64_t number = 1; number <= 200; ++number) {
+    const auto state = StateAt(number);
+    if (number > 50 && number <= 90) state->robots = {ArmAt(number)};
+    history.Add(state);
+  }
+  history.Settle();
+  EXPECT_TRUE(history.Numbered(50)->robots.empty());
+  EXPECT_EQ(history.Numbered(51)->robots.size(), 1u);
+  EXPECT_EQ(history.Numbered(90)->robots.size(), 1u);
+  EXPECT_TRUE(history.Numbered(91)->robots.empty());
+}
+
 TEST(History, KeepsNoPicturesOfCameras) {
   History history;
   Fill(history, 1, 130);

@@ -44,6 +44,39 @@ TEST(Snapshot, ShowsAFormerStateOrSaysWhyNot) {
   EXPECT_EQ(forgetful.Get("/api/v1/snapshot.png?state=5").status, 503);
 }
 
+TEST(Surroundings, AreThoseOfAFormerStateOnceTheyAreMade) {
+  std::atomic<int> asked{0};
+  TestServer site("", true, "", {}, [&](HttpConfig& config) {
+    config.surroundings = [] {
+      return std::make_shared<const Surroundings>(Surroundings{9, "now"});
+    };
+    config.former_surroundings = [&](const std::shared_ptr<const SceneState>& former)
+        -> std::shared_ptr<const Surroundings> {
+      if (former->number == 6) return std::make_shared<const Surroundings>();
+      if (++asked == 1) return nullptr;
+      return std::make_shared<const Surroundings>(
+          Surroundings{former->surroundings, "then " + std::to_string(former->number)});
+    };
+  });
+  for (std::uint64_t number = 4; number <= 6; ++number) {
+    site.PublishState(number, [&](SceneState& state) { state.surroundings = number - 4; });
+  }
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?t=9").body, "now");
+  const Response wait = site.Get("/api/v1/surroundings.glb?state=5");
+  EXPECT_EQ(wait.status, 202);
+  EXPECT_TRUE(wait.json().contains("wait"));
+  EXPECT_EQ(wait.headers.at("cache-control"), "no-store");
+  const Response then = site.Get("/api/v1/surroundings.glb?state=5");
+  EXPECT_EQ(then.status, 200);
+  EXPECT_EQ(then.body, "then 5");
+  EXPECT_EQ(then.headers.at("content-type"), "model/gltf-binary");
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?state=4").status, 404) << "nothing was there";
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?state=6").status, 503) << "they cannot be made";
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?state=7").status, 409);
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?state=3").status, 410);
+  EXPECT_EQ(site.Get("/api/v1/surroundings.glb?state=x").status, 400);
+}
+
 TEST(Snapshot, AcceptsSizesFrom16To4096) {
   const TestServer site;
   EXPECT_EQ(site.Get("/api/v1/snapshot.png?width=16&height=4096").status, 200);

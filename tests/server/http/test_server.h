@@ -132,10 +132,12 @@ struct TestServer {
     return told;
   }
 
-  void PublishState(std::uint64_t number) {
+  void PublishState(std::uint64_t number,
+                    const std::function<void(SceneState& state)>& change = nullptr) {
     auto state = std::make_shared<SceneState>(
         MakeScene(number, static_cast<double>(number) / 60, MonotonicNanos(), model));
     state->made_nanos = state->arrival_nanos;
+    if (change) change(*state);
     states.Publish(state);
     history.Add(std::move(state));
   }

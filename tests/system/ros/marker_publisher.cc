@@ -1,6 +1,7 @@
 // Publishes one marker of each type, but for the mesh, on /samples, and says `published` on its
 // standard output when a subscriber is there; a robot's URDF as /arm_description, and where its
-// links are on /tf_static; a picture on /lab/image_raw. Until the end of its standard input.
+// links are on /tf_static; a picture on /lab/image_raw. After a line on its standard input, the
+// robot goes to another place and the markers away. Until the end of its standard input.
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
@@ -59,13 +60,13 @@ constexpr char kArm[] =
     "<parent link='arm_base'/><child link='arm_hand'/><axis xyz='1 0 0'/>"
     "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
 
-tf2_msgs::TFMessage PlacesOfArm() {
+tf2_msgs::TFMessage PlacesOfArm(double x) {
   tf2_msgs::TFMessage message;
   message.transforms.resize(2);
   auto& base = message.transforms[0];
   base.header.frame_id = "world";
   base.child_frame_id = "arm_base";
-  base.transform.translation.x = 0.2;
+  base.transform.translation.x = x;
   base.transform.translation.y = -0.45;
   base.transform.translation.z = 1.2;
   base.transform.rotation.w = 1;
@@ -98,7 +99,7 @@ int Main(int argc, char** argv) {
   ros::NodeHandle node;
   node.setParam("/arm_description", kArm);
   const ros::Publisher places = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-  places.publish(PlacesOfArm());
+  places.publish(PlacesOfArm(0.2));
   const ros::Publisher camera = node.advertise<sensor_msgs::Image>("/lab/image_raw", 1, true);
   camera.publish(Picture());
   visualization_msgs::MarkerArray array;
@@ -113,7 +114,13 @@ int Main(int argc, char** argv) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   std::string line;
-  while (std::getline(std::cin, line)) continue;
+  while (std::getline(std::cin, line)) {
+    visualization_msgs::MarkerArray none;
+    none.markers.resize(1);
+    none.markers[0].action = visualization_msgs::Marker::DELETEALL;
+    publisher.publish(none);
+    places.publish(PlacesOfArm(-1.5));
+  }
   return 0;
 }
 

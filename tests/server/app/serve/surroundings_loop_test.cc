@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <thread>
 
 namespace kinescope::app {
 namespace {
@@ -51,6 +52,44 @@ TEST(SurroundingsLoop, TakesItsTimeWithoutViewers) {
   loop.OnState(With(2, "wall"));
   ASSERT_NE(made.WaitNewer(version, kPatience), nullptr);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, seconds(1));
+}
+
+std::shared_ptr<const http::Surroundings> Await(SurroundingsLoop& loop,
+                                                const std::shared_ptr<const SceneState>& former) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (auto made = loop.Of(former)) return made;
+    std::this_thread::yield();
+  }
+  return nullptr;
+}
+
+TEST(SurroundingsLoop, MakesThoseOfFormerStatesWhenTheyAreAskedFor) {
+  Latest<http::Surroundings> made;
+  SurroundingsLoop loop([] { return true; }, made);
+  std::uint64_t version = 0;
+  loop.OnState(With(9, "now"));
+  ASSERT_NE(made.WaitNewer(version, kPatience), nullptr);
+  EXPECT_EQ(loop.Of(With(3, "then")), nullptr) << "it is not waited for";
+  const auto former = Await(loop, With(3, "then"));
+  ASSERT_NE(former, nullptr);
+  EXPECT_EQ(former->revision, 3u);
+  EXPECT_NE(former->glb.find("then"), std::string::npos);
+  EXPECT_EQ(made.Get()->revision, 9u) << "those of now are the same";
+  EXPECT_EQ(loop.Of(With(9, "")), made.Get()) << "what was made is not made again";
+  EXPECT_EQ(loop.Of(With(3, "")), former);
+}
+
+TEST(SurroundingsLoop, ForgetsTheFormerOnesThatWereMadeFirst) {
+  Latest<http::Surroundings> made;
+  SurroundingsLoop loop([] { return true; }, made);
+  for (std::uint64_t revision = 1; revision <= 40; ++revision) {
+    ASSERT_NE(Await(loop, With(revision, "then")), nullptr);
+  }
+  EXPECT_EQ(loop.Of(With(1, "again")), nullptr);
+  EXPECT_NE(loop.Of(With(40, "")), nullptr);
+  loop.End();
+  EXPECT_EQ(loop.Of(With(2, "again")), nullptr);
 }
 
 }  // namespace
