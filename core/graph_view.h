@@ -36,6 +36,8 @@ struct WrenchArrows {
   bool hides_small = true;  // with a width: arrows whose shaft is shorter than that
 };
 
+inline constexpr std::size_t kUsualCloudPoints = 20'000, kMostCloudPoints = 100'000;
+
 /// How a message that is shown as a marker looks, where it is not as by default
 /// (server/ros/shown_messages.h).
 struct ShownStyle {
@@ -48,8 +50,10 @@ struct ShownStyle {
   std::optional<double> width_m;
   std::optional<PointScale> scale;  // of points, unless they have a colour
   bool has_axes = false;            // of a pose: three axes, not an arrow
-  bool has_spheres = false;         // of points, if they are few: spheres, not cubes
-  bool is_costmap = false;          // of a map: in colours of costs
+  // Of points, if they are few: spheres or cubes, not squares that face the viewer.
+  bool has_spheres = false, has_cubes = false;
+  std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
+  bool is_costmap = false;                      // of a map: in colours of costs
   WrenchArrows wrench = {};
 };
 

@@ -27,7 +27,7 @@ enum class MarkerType {
   kLineList = 5,      // one line per two points; scale.x: width, round
   kCubeList = 6,      // one cube per point; scale: edges
   kSphereList = 7,    // one sphere per point; scale: diameters
-  kPoints = 8,        // one cube per point; scale: width, height
+  kPoints = 8,        // one square per point that faces the viewer, unlit; scale: width, height
   kText = 9,          // faces the viewer; scale.z: height of a capital
   kMesh = 10,         // scale: factors
   kTriangleList = 11  // three points each, visible from both sides; scale: factors

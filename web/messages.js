@@ -242,10 +242,11 @@ export const readModel = object({
  *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
 
-// /api/v1/surroundings.glb: the extras of its scene, and those of its texts
+// /api/v1/surroundings.glb: the extras of its scene, those of its texts and those of its points
 export const readSurroundings = object({ problems: listOf(string) });
 export const readLabelText = object({ text: string, height: number, color: rgb, opacity: number });
 /** @typedef {ReturnType<typeof readLabelText>} LabelText  height of a capital, m; 0: a note of fixed size */
+export const readPointsExtras = object({ size: numbers(2) });
 
 // /api/v1/series
 const readColumns = listOf(numberOrNull);

@@ -1,6 +1,6 @@
 // What is beside the people: external markers and robots, as the server makes them of the triangles of its pictures.
 import * as THREE from 'three';
-import { readLabelText, readSurroundings } from './messages.js';
+import { readLabelText, readPointsExtras, readSurroundings } from './messages.js';
 import { request } from './server_api.js';
 
 const RETRY_MILLIS = 1000;
@@ -147,21 +147,40 @@ function linksOf(scene) {
  *  @returns {part is THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>} */
 const isMesh = (part) => part instanceof THREE.Mesh;
 
+/** @param {THREE.Object3D} part
+ *  @returns {part is THREE.Points<THREE.BufferGeometry, THREE.Material>} */
+const isPoints = (part) => part instanceof THREE.Points;
+
 /** @param {THREE.Object3D} part */
 function prepare(part) {
   if (isMesh(part)) {
     part.material.fog = false;  // only the floor ends in the distance
     part.castShadow = !part.material.transparent;
+  } else if (isPoints(part)) {
+    part.material = squares(part);
   } else if ('text' in part.userData) {
     part.add(makeText(readLabelText(part.userData, 'extras')));
   }
 }
 
+/** Squares that face the camera, with the width of the file's in the world.
+ *  @param {THREE.Points<THREE.BufferGeometry, THREE.Material>} points */
+function squares({ material: { transparent }, userData }) {
+  const { size: [width] } = readPointsExtras(userData, 'extras');
+  const material = new THREE.PointsMaterial({ size: width, vertexColors: true, transparent, depthWrite: !transparent, fog: false });
+  // three.js takes each camera for one that sees as much as it is away.
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace('gl_PointSize = size;', 'gl_PointSize = size * projectionMatrix[1][1];');
+  };
+  return material;
+}
+
 /** @param {THREE.Object3D} part */
 function dispose(part) {
-  if (isMesh(part)) part.geometry.dispose();
-  if (!(isMesh(part) || part instanceof THREE.Sprite)) return;
-  part.material.map?.dispose();
+  const hasShape = isMesh(part) || isPoints(part);
+  if (hasShape) part.geometry.dispose();
+  if (!(hasShape || part instanceof THREE.Sprite)) return;
+  if (!isPoints(part)) part.material.map?.dispose();
   part.material.dispose();
 }
 

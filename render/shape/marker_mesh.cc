@@ -131,8 +131,8 @@ std::size_t TriangleCount(const SceneMarker& marker) {
     case MarkerType::kLineStrip:
     case MarkerType::kLineList:  // two caps for each pair
       return count * 2 * kLineSides;
-    case MarkerType::kCubeList:
-    case MarkerType::kPoints: return count * (PlainCube().triangles.size() / 3);
+    case MarkerType::kPoints: return count * 2;
+    case MarkerType::kCubeList: return count * (PlainCube().triangles.size() / 3);
     case MarkerType::kSphereList:
       return count * (UnitSphere(kListSphereSides).triangles.size() / 3);
     case MarkerType::kTriangleList: return 2 * (count / 3);
@@ -157,10 +157,8 @@ void AppendMarker(const SceneMarker& marker, urdf::Mesh& to) {
     case MarkerType::kSphereList:
       writer.AddAtPoints(UnitSphere(kListSphereSides), marker.scale);
       break;
-    case MarkerType::kPoints:
-      writer.AddAtPoints(PlainCube(), {marker.scale.x(), marker.scale.x(), marker.scale.y()});
-      break;
     case MarkerType::kTriangleList: writer.AddTriangles(); break;
+    case MarkerType::kPoints:
     case MarkerType::kText:
     case MarkerType::kMesh: break;
   }

@@ -9,10 +9,11 @@
 
 namespace kinescope::render {
 
-/// How many triangles AppendMarker would add; 0 for text and meshes.
+/// How many triangles a marker has in a picture; 0 for text and meshes.
 std::size_t TriangleCount(const SceneMarker& marker);
 
-/// Adds nothing for text and meshes. @pre !FindDefect(marker)
+/// Adds nothing for text, meshes and points, whose triangles turn with the camera.
+/// @pre !FindDefect(marker)
 void AppendMarker(const SceneMarker& marker, urdf::Mesh& to);
 
 }  // namespace kinescope::render

@@ -66,6 +66,11 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     to.labels.push_back(TextOf(marker));
     return;
   }
+  if (marker.type == MarkerType::kPoints) {
+    if (HasRoomFor(TriangleCount(marker))) return AddPoints(marker, to);
+    to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
+    return;
+  }
   const bool is_blended = IsTranslucent(marker);
   urdf::Mesh& mesh = is_blended ? to.blended : to.solid;
   const std::size_t first = mesh.positions.size();
@@ -84,6 +89,26 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     mesh.parts[i] = static_cast<float>(names.size());
   }
   names.push_back(IdentityOf(marker));
+}
+
+void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {
+  const auto world_from_marker =
+      Eigen::Translation3d(marker.pose.position) * marker.pose.orientation;
+  MarkerPoints& points = to.points.emplace_back();
+  points.name = IdentityOf(marker);
+  points.size = marker.scale.head<2>().cast<float>();
+  points.is_blended = IsTranslucent(marker);
+  points.positions.reserve(marker.points.size());
+  points.colors.reserve(marker.points.size());
+  Eigen::AlignedBox3f& box = to.boxes.emplace_back();
+  for (std::size_t i = 0; i < marker.points.size(); ++i) {
+    points.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
+    box.extend(points.positions.back());
+    const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
+    points.colors.emplace_back(color.cast<float>());
+  }
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(0.5f * points.size.norm());
+  box = {box.min() - reach, box.max() + reach};
 }
 
 const VisualMesh& MarkerReader::MeshOf(const std::string& uri) {

@@ -1,5 +1,5 @@
-/// Converts all external markers of a scene to triangles, texts and boxes: what pictures and the
-/// page show of them. World, metres. One thread.
+/// Converts all external markers of a scene to triangles, points, texts and boxes: what pictures
+/// and the page show of them. World, metres. One thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,13 +15,23 @@
 
 namespace kinescope::render {
 
+/// Squares that face the viewer: those of one marker.
+struct MarkerPoints {
+  std::string name;      // "scan/0"
+  Eigen::Vector2f size;  // width and height
+  bool is_blended = false;
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector4f> colors;  // one for each
+};
+
 struct MarkerShapes {
   urdf::Mesh solid,
       blended;  // with their colours; `blended`: markers that let others shine through;
                 // the part of a vertex is the index of its marker's name
   std::vector<std::string> solid_names, blended_names;  // "walls/3"
+  std::vector<MarkerPoints> points;
   bool is_closed = true;                   // no surface of `solid` is visible from its back
-  std::vector<Eigen::AlignedBox3f> boxes;  // around each marker with triangles
+  std::vector<Eigen::AlignedBox3f> boxes;  // around each marker with triangles or points
   std::vector<Label> labels;               // texts, and the names of missing meshes
   /// Markers that are not shown, or whose mesh is replaced by a box: one line each, with the marker
   /// and the reason. A flood of them ends with their number.
@@ -37,6 +47,7 @@ class MarkerReader {
 
  private:
   void Add(const SceneMarker& marker, MarkerShapes& to);
+  static void AddPoints(const SceneMarker& marker, MarkerShapes& to);
   void AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerShapes& to);
   [[nodiscard]] bool HasRoomFor(std::size_t triangles);
   const VisualMesh& MeshOf(const std::string& uri);

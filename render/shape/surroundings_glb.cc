@@ -63,6 +63,21 @@ class Document {
     }
   }
 
+  void AddPoints(const MarkerPoints& points) {
+    constexpr int kModeOfPoints = 0;
+    json& meshes = glb_.document()["meshes"];
+    meshes.push_back({{"primitives",
+                       {{{"mode", kModeOfPoints},
+                         {"attributes",
+                          {{"POSITION", glb_.AddPositions(Flat(points.positions))},
+                           {"COLOR_0", AddColors(points.colors)}}},
+                         {"material", points.is_blended ? kBlended : kClosed}}}}});
+    AddNode({{"name", "points"},
+             {"mesh", meshes.size() - 1},
+             {"extras", {{"size", {points.size.x(), points.size.y()}}}}},
+            kRoot);
+  }
+
   void AddLabel(const Label& label) {
     AddNode({{"name", "label"},
              {"translation", {label.position.x(), label.position.y(), label.position.z()}},
@@ -105,28 +120,33 @@ class Document {
     return meshes.size() - 1;
   }
 
-  json Primitive(const Part& part) {
-    const urdf::Mesh& mesh = part.mesh;
-    std::vector<float> positions, normals;
+  static std::vector<float> Flat(const std::vector<Eigen::Vector3f>& vectors) {
+    std::vector<float> flat;
+    flat.reserve(3 * vectors.size());
+    for (const Eigen::Vector3f& v : vectors) flat.insert(flat.end(), v.begin(), v.end());
+    return flat;
+  }
+
+  // The number of its accessor.
+  std::size_t AddColors(const std::vector<Eigen::Vector4f>& srgb) {
     std::vector<std::uint16_t> colors;
-    positions.reserve(3 * mesh.positions.size());
-    normals.reserve(3 * mesh.normals.size());
-    colors.reserve(4 * mesh.colors.size());
-    for (const Eigen::Vector3f& p : mesh.positions) {
-      positions.insert(positions.end(), p.begin(), p.end());
-    }
-    for (const Eigen::Vector3f& n : mesh.normals) normals.insert(normals.end(), n.begin(), n.end());
-    for (const Eigen::Vector4f& c : mesh.colors) {
+    colors.reserve(4 * srgb.size());
+    for (const Eigen::Vector4f& c : srgb) {
       for (int i = 0; i < 3; ++i) colors.push_back(LinearOf(c[i]));
       colors.push_back(static_cast<std::uint16_t>(65535 * std::clamp(c.w(), 0.0f, 1.0f)));
     }
+    const std::size_t number =
+        glb_.Add(colors, {GlbWriter::kUnsignedShort, "VEC4", 4, GlbWriter::kOfVertices});
+    glb_.document()["accessors"][number]["normalized"] = true;
+    return number;
+  }
+
+  json Primitive(const Part& part) {
+    const urdf::Mesh& mesh = part.mesh;
     const GlbWriter::Kind triples = {GlbWriter::kFloat, "VEC3", 3, GlbWriter::kOfVertices};
-    json attributes = {{"POSITION", glb_.AddPositions(positions)},
-                       {"NORMAL", glb_.Add(normals, triples)},
-                       {"COLOR_0", glb_.Add(colors, {GlbWriter::kUnsignedShort, "VEC4", 4,
-                                                     GlbWriter::kOfVertices})}};
-    const std::size_t color = attributes["COLOR_0"].get<std::size_t>();
-    glb_.document()["accessors"][color]["normalized"] = true;
+    json attributes = {{"POSITION", glb_.AddPositions(Flat(mesh.positions))},
+                       {"NORMAL", glb_.Add(Flat(mesh.normals), triples)},
+                       {"COLOR_0", AddColors(mesh.colors)}};
     return {{"attributes", std::move(attributes)},
             {"indices", glb_.Add(mesh.triangles,
                                  {GlbWriter::kUnsignedInt, "SCALAR", 1, GlbWriter::kOfIndices})},
@@ -192,6 +212,7 @@ std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const Scene
   document.AddMeshes("markers",
                      {{shapes.solid, shapes.is_closed ? Document::kClosed : Document::kOpen},
                       {shapes.blended, Document::kBlended}});
+  for (const MarkerPoints& points : shapes.points) document.AddPoints(points);
   for (const Label& label : shapes.labels) document.AddLabel(label);
   std::vector<std::string> problems = std::move(shapes.problems);
   std::size_t moving = 0;

@@ -269,7 +269,7 @@ class GlDrawing : public Drawing {
     for (const auto& robot : robots_) {
       for (vtkActor* body : robot->bodies()) add(body);
     }
-    add(markers_->solid());
+    for (vtkActor* marker : markers_->solid()) add(marker);
     add(trails_->actor());
     for (const auto& [id, person] : people_) {
       for (vtkActor* ghost : person->ghosts()) add(ghost, id);
@@ -277,7 +277,7 @@ class GlDrawing : public Drawing {
     for (const auto& [id, person] : people_) {
       for (vtkActor* mark : person->marks()) add(mark, id);
     }
-    add(markers_->blended());
+    for (vtkActor* marker : markers_->blended()) add(marker);
     for (vtkActor* ghost : ghosts_.actors()) add(ghost);
     return all;
   }

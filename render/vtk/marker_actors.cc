@@ -29,6 +29,7 @@ void MarkerActors::Build() {
   if (!shapes.solid.triangles.empty()) solid_.SetMesh(shapes.solid);
   if (!shapes.blended.triangles.empty()) blended_.SetMesh(shapes.blended);
   solid_.SetCulling(shapes.is_closed);
+  for (PointActor* points : {&solid_points_, &blended_points_}) points->SetPoints(shapes.points);
   boxes_ = std::move(shapes.boxes);
   solid_names_ = std::move(shapes.solid_names);
   blended_names_ = std::move(shapes.blended_names);
@@ -47,8 +48,11 @@ void MarkerActors::Update(const std::vector<std::shared_ptr<const SceneMarker>>&
 }
 
 std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
-  if (actor != solid() && actor != blended()) return {};
-  std::vector<std::string> names = actor == solid() ? solid_names_ : blended_names_;
+  std::vector<std::string> names = actor == solid_.actor()            ? solid_names_
+                                   : actor == blended_.actor()        ? blended_names_
+                                   : actor == solid_points_.actor()   ? solid_points_.names()
+                                   : actor == blended_points_.actor() ? blended_points_.names()
+                                                                      : std::vector<std::string>();
   for (std::string& name : names) name.insert(0, "marker ");
   return names;
 }

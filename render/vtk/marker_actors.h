@@ -1,7 +1,8 @@
-/// Renders the external markers in two draw calls: the opaque ones, and the others. They are
-/// rebuilt when one of them has changed since the picture before.
+/// Renders the external markers in four draw calls: triangles and points, the opaque ones and the
+/// others. They are rebuilt when one of them has changed since the picture before.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "render/shape/marker_shapes.h"
 #include "render/shape/once_log.h"
 #include "render/vtk/part_actor.h"
+#include "render/vtk/point_actor.h"
 
 namespace kinescope::render {
 
@@ -26,8 +28,8 @@ class MarkerActors {
   /// Markers that are not rendered, or whose mesh is replaced by a box: one line each, with the
   /// marker and the reason.
   const std::vector<std::string>& problems() const { return problems_; }
-  vtkActor* solid() { return solid_.actor(); }
-  vtkActor* blended() { return blended_.actor(); }
+  std::array<vtkActor*, 2> solid() { return {solid_.actor(), solid_points_.actor()}; }
+  std::array<vtkActor*, 2> blended() { return {blended_.actor(), blended_points_.actor()}; }
   /// By part of one of these actors: "marker walls/3".
   std::vector<std::string> NamesOf(const vtkActor* actor);
   void AddTo(PictureRegion& region) const;
@@ -36,6 +38,7 @@ class MarkerActors {
   void Build();
 
   PartActor solid_, blended_;
+  PointActor solid_points_{false}, blended_points_{true};
   MarkerReader reader_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused

@@ -60,7 +60,9 @@ bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& a
 bool TakeShape(const std::string& text, ShownStyle& style) {
   style.has_axes = text == "axes";
   style.has_spheres = text == "spheres";
-  return style.has_axes || style.has_spheres || text == "arrow" || text == "cubes";
+  style.has_cubes = text == "cubes";
+  return style.has_axes || style.has_spheres || style.has_cubes || text == "arrow" ||
+         text == "squares";
 }
 
 // "color=#ff8800": false where it says nothing.
@@ -91,6 +93,12 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (key == "alpha" && number) {
     style.alpha = *number;
     return *number >= 0 && *number <= 1;
+  }
+  if (key == "points" && number) {
+    const bool is_count = *number >= 1 && *number <= static_cast<double>(kMostCloudPoints) &&
+                          *number == std::floor(*number);
+    if (is_count) style.most_points = static_cast<std::size_t>(*number);
+    return is_count;
   }
   if ((key != "size" && key != "width") || !number) return false;
   (key == "size" ? style.size_m : style.width_m) = *number;

@@ -177,7 +177,11 @@ class StyleReader {
     } else if (poses != "None") {
       Remark("Pose Style '" + poses + "': poses along the line are not drawn");
     }
-    if (has_.color == nullptr && TextOf(display_, "Style", "") == "Spheres") Add("shape=spheres");
+    if (has_.color == nullptr) {
+      const std::string style = TextOf(display_, "Style", "");
+      if (style == "Spheres") Add("shape=spheres");
+      if (style == "Boxes") Add("shape=cubes");
+    }
     if (shape == "Arrow (3D)") Remark("Shape 'Arrow (3D)' is drawn as flat arrows");
     if (size >= kSmallestShown) {
       Add("size=" + options::NumberText(std::min(size, kLargestShown)));

@@ -167,8 +167,9 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   }
   entry.frame = WithoutSlash(message.header.frame_id);
   entry.axis_style.reset();
-  const bool is_cloud =
-      entry.shape->type == MarkerType::kPoints || entry.shape->type == MarkerType::kSphereList;
+  const MarkerType type = entry.shape->type;
+  const bool is_cloud = type == MarkerType::kPoints || type == MarkerType::kSphereList ||
+                        type == MarkerType::kCubeList;
   if (is_cloud && AxisOf(style)) entry.axis_style = style;
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;

@@ -32,8 +32,8 @@ std::vector<std::string> NamesOf(const std::string& field) {
   return {field};
 }
 
-std::size_t StepOf(std::uint64_t points) {
-  return static_cast<std::size_t>((points + kMostCloudPoints - 1) / kMostCloudPoints);
+std::size_t StepOf(std::uint64_t points, const ShownStyle& style) {
+  return static_cast<std::size_t>((points + style.most_points - 1) / style.most_points);
 }
 
 // A number in a point of a cloud.
@@ -111,7 +111,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
   Marker points = PointsOf(message.header, style, kPointSize);
   const bool has_intensities =
       FieldOf(style) == "intensity" && message.intensities.size() == message.ranges.size();
-  const std::size_t step = StepOf(message.ranges.size());
+  const std::size_t step = StepOf(message.ranges.size(), style);
   std::vector<double> intensities;
   for (std::size_t i = 0; i < message.ranges.size(); i += step) {
     const float range = message.ranges[i];
@@ -143,7 +143,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
   std::vector<double> values;
   std::vector<std_msgs::ColorRGBA> colors;
   const std::uint64_t count = std::uint64_t{message.width} * message.height;
-  const std::size_t step = StepOf(count);
+  const std::size_t step = StepOf(count, style);
   for (std::uint64_t i = 0; i < count; i += step) {
     const std::uint8_t* const point = message.data.data() + i / message.width * message.row_step +
                                       i % message.width * message.point_step;
@@ -167,7 +167,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
                each.values.size() == message.points.size();
       });
   std::vector<double> values;
-  const std::size_t step = StepOf(message.points.size());
+  const std::size_t step = StepOf(message.points.size(), style);
   for (std::size_t i = 0; i < message.points.size(); i += step) {
     const geometry_msgs::Point32& point = message.points[i];
     const geometry_msgs::Point place = PointAt(

@@ -48,15 +48,19 @@ Marker Without(const std_msgs::Header& header, int id) {
 }
 
 Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style, double size) {
-  Marker points = MarkerOf(header, 0, style.has_spheres ? Marker::SPHERE_LIST : Marker::POINTS,
-                           In(style, Color(255, 255, 255)));
+  const int shape = style.has_spheres ? Marker::SPHERE_LIST
+                    : style.has_cubes ? Marker::CUBE_LIST
+                                      : Marker::POINTS;
+  Marker points = MarkerOf(header, 0, shape, In(style, Color(255, 255, 255)));
   points.scale.x = points.scale.y = points.scale.z = style.size_m.value_or(size);
   return points;
 }
 
 ShownMarkers PointsOrNone(Marker points) {
-  constexpr std::size_t kMostSpheres = 500;  // they have ten times the triangles of cubes
-  if (points.points.size() > kMostSpheres) points.type = Marker::POINTS;
+  // They have sixty and six times the triangles of squares.
+  constexpr std::size_t kMostSpheres = 500, kMostCubes = 5'000;
+  const std::size_t most = points.type == Marker::SPHERE_LIST ? kMostSpheres : kMostCubes;
+  if (points.points.size() > most) points.type = Marker::POINTS;
   return OneOrNone(std::move(points));
 }
 

@@ -23,10 +23,10 @@ visualization_msgs::Marker MarkerOf(const std_msgs::Header& header, int id, int 
 visualization_msgs::Marker Without(const std_msgs::Header& header, int id);
 /// Deletes it if it has no points.
 ShownMarkers OneOrNone(visualization_msgs::Marker marker);
-/// Without points yet: cubes, or spheres, of `size`, or the size of the style, m.
+/// Without points yet: squares, spheres or cubes, of `size`, or the size of the style, m.
 visualization_msgs::Marker PointsOf(const std_msgs::Header& header, const ShownStyle& style,
                                     double size);
-/// Deletes it if it has no points; of many points, cubes take the place of spheres.
+/// Deletes it if it has no points; of many points, squares take the place of spheres and cubes.
 ShownMarkers PointsOrNone(visualization_msgs::Marker points);
 geometry_msgs::Point PointAt(double x, double y, double z);
 tl::unexpected<Refusal> TooLarge(const char* what, std::size_t count, std::size_t most);

@@ -174,6 +174,7 @@ test('markers and a robot of other ROS nodes cover the same pixels on the page, 
   await now.close();
   await former.close();
   await site.stop();
+  publisher.stdin.write('come back\n');
   const everywhere = NOTHING_LEFT_OUT(shown.covered);
   for (const [one, other] of [[shown.covered, former.covered], [former.covered, shown.covered]]) {
     const { share } = found(one, other, everywhere, shown.size);

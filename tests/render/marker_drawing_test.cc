@@ -88,6 +88,27 @@ TEST_F(MarkerDrawing, NamesNonFiniteMarkersAndRendersTheOthers) {
   EXPECT_THAT(log_, ::testing::ElementsAre(::testing::HasSubstr("position is not finite")));
 }
 
+TEST_F(MarkerDrawing, DrawsPointsAsSquaresThatFaceTheCameraInTheirOwnColour) {
+  SceneMarker points;
+  points.type = MarkerType::kPoints;
+  points.scale = {0.4, 0.2, 0};
+  points.points = {{0, 0, 0.8}};
+  points.colors = {{1, 0.5, 0, 1}};
+  for (const Eigen::Vector3d& from : {Eigen::Vector3d(5, 0, 0.8), {0, 5, 0.8}, {3, 0, 4.8}}) {
+    Camera camera = Ahead();
+    camera.position = from;
+    camera.target = points.points[0];
+    const Image empty = renderer_->Render(Empty(), camera, spec_),
+                image = renderer_->Render(With({points}), camera, spec_);
+    const Comparison change = Compare(empty, image);
+    const double px_per_m = Project(camera.target, camera, kViewWidth, kViewHeight).px_per_m;
+    EXPECT_NEAR(change.right - change.left, 0.4 * px_per_m, 2) << from.transpose();
+    EXPECT_NEAR(change.bottom - change.top, 0.2 * px_per_m, 2) << from.transpose();
+    const auto* const middle = &image.rgba[4 * (kViewHeight / 2 * kViewWidth + kViewWidth / 2)];
+    EXPECT_EQ(std::vector<int>(middle, middle + 3), (std::vector<int>{255, 128, 0})) << "unlit";
+  }
+}
+
 TEST_F(MarkerDrawing, RejectsTooManyTrianglesByName) {
   SceneMarker flood;
   flood.ns = "flood";

@@ -275,7 +275,7 @@ Visualization Manager:
   EXPECT_THAT(
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
-                  "(shape=axes,size=0.2)", "(color=#00ff80,size=0.03)", "", "(by=z)",
+                  "(shape=axes,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)", "", "(by=z)",
                   "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)", "(size=10)",
                   "(color=#0000ff,alpha=0.5,size=0.75)", "(alpha=0.25,scheme=costmap)", "",
                   "(color=#19ff00)", "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
@@ -371,6 +371,9 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(alpha=2)",
                           "/a(shape=cube)",
                           "/a(scheme=raw)",
+                          "/a(points=0)",
+                          "/a(points=100001)",
+                          "/a(points=1.5)",
                           "/a(by=)",
                           "/a(by=a/b)",
                           "/a(from=low)",

@@ -179,7 +179,7 @@ TEST(ShownMessages, AMeasuredValueIsASphereInItsColour) {
   EXPECT_EQ(RgbOf(ShownOf(effort, style).at(0).color), (std::array<int, 3>{255, 255, 255}))
       << "it has no such number";
   style.has_spheres = false;
-  EXPECT_EQ(ShownOf(effort, style).at(0).type, Marker::POINTS) << "a cube of this size";
+  EXPECT_EQ(ShownOf(effort, style).at(0).type, Marker::POINTS) << "a square of this size";
 
   // RViz's own scales.
   effort.temperature = 100;
@@ -317,16 +317,24 @@ TEST(ShownMessages, AScaleComesBeforeColoursOfTheCloudAndAColourBeforeBoth) {
 }
 
 TEST(ShownMessages, OfALargeCloudEveryNthPointIsShown) {
-  const ShownMarkers markers = ShownOf(CloudOf(10'000, "intensity", 7));
-  ASSERT_THAT(markers, SizeIs(1));
-  EXPECT_THAT(markers[0].points, SizeIs(3'334));
+  const sensor_msgs::PointCloud2 cloud = CloudOf(50'000, "intensity", 7);
+  EXPECT_THAT(ShownOf(cloud).at(0).points, SizeIs(16'667));
+  ShownStyle style;
+  style.most_points = 49'999;
+  EXPECT_THAT(ShownOf(cloud, style).at(0).points, SizeIs(25'000));
+  style.most_points = 50'000;
+  EXPECT_THAT(ShownOf(cloud, style).at(0).points, SizeIs(50'000));
 }
 
-TEST(ShownMessages, ManyPointsAreCubesRatherThanSpheres) {
+TEST(ShownMessages, ManyPointsAreSquaresRatherThanSpheresOrCubes) {
   ShownStyle style;
   style.has_spheres = true;
   EXPECT_EQ(ShownOf(CloudOf(500, "ring", 7), style).at(0).type, Marker::SPHERE_LIST);
   EXPECT_EQ(ShownOf(CloudOf(501, "ring", 7), style).at(0).type, Marker::POINTS);
+  style.has_spheres = false;
+  style.has_cubes = true;
+  EXPECT_EQ(ShownOf(CloudOf(5'000, "ring", 7), style).at(0).type, Marker::CUBE_LIST);
+  EXPECT_EQ(ShownOf(CloudOf(5'001, "ring", 7), style).at(0).type, Marker::POINTS);
 }
 
 TEST(ShownMessages, ACloudThatContradictsItselfIsRefused) {

@@ -1,7 +1,8 @@
 // Publishes one marker of each type, but for the mesh, on /samples, and says `published` on its
 // standard output when a subscriber is there; a robot's URDF as /arm_description, and where its
-// links are on /tf_static; a picture on /lab/image_raw. After a line on its standard input, the
-// robot goes to another place and the markers away. Until the end of its standard input.
+// links are on /tf_static; a picture on /lab/image_raw. With a line on its standard input, the
+// robot goes to another place and the markers away; with the next one, they are back. Until the end
+// of its standard input.
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
@@ -114,12 +115,12 @@ int Main(int argc, char** argv) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   std::string line;
-  while (std::getline(std::cin, line)) {
-    visualization_msgs::MarkerArray none;
-    none.markers.resize(1);
-    none.markers[0].action = visualization_msgs::Marker::DELETEALL;
-    publisher.publish(none);
-    places.publish(PlacesOfArm(-1.5));
+  visualization_msgs::MarkerArray none;
+  none.markers.resize(1);
+  none.markers[0].action = visualization_msgs::Marker::DELETEALL;
+  for (bool is_there = false; std::getline(std::cin, line); is_there = !is_there) {
+    publisher.publish(is_there ? array : none);
+    places.publish(PlacesOfArm(is_there ? 0.2 : -1.5));
   }
   return 0;
 }

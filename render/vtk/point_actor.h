@@ -1,0 +1,29 @@
+/// Draws points as squares that face the camera, in one draw call. Their colours are not lit, so
+/// that they mean what a legend or another program says they mean.
+#pragma once
+
+#include <vector>
+
+#include "render/shape/marker_shapes.h"
+#include "render/vtk/shaded_actor.h"
+
+namespace kinescope::render {
+
+class PointActor {
+ public:
+  /// Draws those that are blended, or the others.
+  explicit PointActor(bool is_blended);
+
+  /// Uploads them; invisible without any. The parts of the actor are the numbers of the markers.
+  void SetPoints(const std::vector<MarkerPoints>& all);
+  vtkActor* actor() { return shaded_.actor(); }
+  /// By part: "scan/0".
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  const bool is_blended_;
+  ShadedActor shaded_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace kinescope::render
