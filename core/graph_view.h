@@ -36,6 +36,17 @@ struct WrenchArrows {
   bool hides_small = true;  // with a width: arrows whose shaft is shorter than that
 };
 
+inline constexpr std::size_t kMostKeptMessages = 1000;
+inline constexpr double kLongestDecay = 600;  // s
+
+/// The messages of a topic that are shown with its newest one.
+struct EarlierMessages {
+  std::size_t keep = 1;   // how many there are, with the newest
+  double decay_secs = 0;  // not 0: those of the last seconds, in place of `keep`
+  /// Messages of poses that are nearer to the one before than both are not shown.
+  double step_m = 0, turn_rad = 0;
+};
+
 inline constexpr std::size_t kUsualCloudPoints = 20'000, kMostCloudPoints = 100'000;
 
 /// How a message that is shown as a marker looks, where it is not as by default
@@ -55,6 +66,7 @@ struct ShownStyle {
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
   WrenchArrows wrench = {};
+  EarlierMessages earlier = {};
 };
 
 /// As many may be named.
@@ -72,7 +84,9 @@ struct GraphView {
   std::vector<GraphRobot> robots;
   /// Of the transforms of a bag; "": /tf.
   std::string tf_topic = {};
+  std::string camera_frame = {};  // of TF: the camera goes with it; "": it stands
 
+  /// Whether a source that is neither a graph nor a bag can do without.
   bool is_empty() const { return tf_topic.empty() && topics.empty() && robots.empty(); }
 };
 

@@ -171,6 +171,9 @@ struct SceneState {
   std::vector<LeftOutPerson> left_out;  // with a sample in the last second that is implausible
   std::vector<TrackedObject> objects;   // those with a sample in the last second
   std::vector<RobotState> robots;
+  /// world_from_frame of the frame that a placed camera goes with, where it was last; none: there
+  /// is no such frame, or it had no place yet.
+  std::optional<urdf::Pose> camera_base;
   /// Reference poses beside the people of a live scene. Their people have characters from
   /// kFirstGhost on, one for each.
   std::vector<Ghost> ghosts;

@@ -53,6 +53,7 @@ struct RecordedSurroundings {
   MarkerList markers;
   RobotList robots;
   ImageList images;
+  std::optional<urdf::Pose> camera_base = {};  // SceneState::camera_base
 };
 
 class SampleSink {

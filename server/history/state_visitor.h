@@ -144,6 +144,7 @@ void VisitState(Column& column, State& state) {
   for (auto& person : state.people) VisitPerson(column, person);
   for (auto& object : state.objects) VisitPose(column, object.pose);
   for (auto& robot : state.robots) VisitRobot(column, robot);
+  column.Optional(state.camera_base, [&](auto& pose) { VisitPose(column, pose); });
 }
 
 }  // namespace kinescope::history

@@ -57,6 +57,24 @@ bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& a
   return *metres >= 0 && *metres <= kLongestArrow;
 }
 
+// "keep=100", "decay=5", "step=0.1", "turn=0.1".
+bool TakeEarlier(const std::string& key, const std::string& text, EarlierMessages& earlier) {
+  const auto number = options::ParseNumber(text);
+  if (!number || *number < 0) return false;
+  if (key == "keep") {
+    const bool is_count = *number >= 1 && *number <= static_cast<double>(kMostKeptMessages) &&
+                          *number == std::floor(*number);
+    if (is_count) earlier.keep = static_cast<std::size_t>(*number);
+    return is_count;
+  }
+  if (key == "decay") {
+    earlier.decay_secs = *number;
+    return *number <= kLongestDecay;
+  }
+  (key == "step" ? earlier.step_m : earlier.turn_rad) = *number;
+  return *number <= kLargestStep;
+}
+
 bool TakeShape(const std::string& text, ShownStyle& style) {
   style.has_axes = text == "axes";
   style.has_spheres = text == "spheres";
@@ -85,6 +103,7 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (is_one_of({"force", "torque", "torque_color", "small"})) {
     return TakeArrows(key, text, style.wrench);
   }
+  if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
   if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
     if (!style.scale) style.scale = PointScale{};
     return TakeScale(key, text, *style.scale);

@@ -10,6 +10,7 @@
 
 namespace kinescope::app {
 
+inline constexpr double kLargestStep = 1000;                         // of EarlierMessages, m or rad
 inline constexpr double kLargestBound = 1e12;                        // of PointScale
 inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
 inline constexpr double kLongestArrow = 1000;                        // m for 1 N or 1 N·m

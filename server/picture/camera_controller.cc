@@ -38,7 +38,8 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
       is_one_turn_(options.orbit->is_one_turn),
       orbit_rad_per_sec_(options.orbit->degrees_per_sec * M_PI / 180),
       fit_(*options.fit),
-      frame_(*options.camera_frame) {
+      frame_(*options.camera_frame),
+      base_(*options.camera_tf) {
   if (camera.is_key_file) keys_ = ReadCameraKeys(camera_);
   if (options.fov) {
     fov_rad_ = *options.fov * M_PI / 180;
@@ -96,19 +97,36 @@ render::Camera CameraController::NamedAt(const std::string& name,
   return heading_rad_.value_or(0) == 0 ? camera : render::Turned(camera, *heading_rad_);
 }
 
+// Before its frame is found, as if that were at the origin.
+render::Camera CameraController::OnBase(render::Camera camera, const SceneState& state) const {
+  if (base_.frame.empty() || !state.camera_base) return camera;
+  const Eigen::Quaterniond& q = state.camera_base->orientation;
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  if (base_.turn == CameraBase::Turn::kFull) turn = q;
+  if (base_.turn == CameraBase::Turn::kHeading) {
+    const Eigen::Vector3d ahead = q * Eigen::Vector3d::UnitX();
+    turn = Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Eigen::Vector3d::UnitZ());
+  }
+  camera.position = state.camera_base->position + turn * camera.position;
+  camera.target = state.camera_base->position + turn * camera.target;
+  camera.up = turn * camera.up;
+  return camera;
+}
+
 // Where it stands but for orbit and frame.
 render::Camera CameraController::Placed(const SceneState& state, const render::GroundExtent& ground,
                                         double secs) const {
   if (!keys_.empty()) {
     std::vector<render::CameraKey> keys;
     for (const CameraKeySpec& spec : keys_) {
-      render::Camera camera = spec.name.empty() ? spec.place : NamedAt(spec.name, ground);
+      render::Camera camera =
+          spec.name.empty() ? OnBase(spec.place, state) : NamedAt(spec.name, ground);
       if (!spec.name.empty() && spec.fov_rad) camera = render::WithFov(camera, *spec.fov_rad);
       keys.push_back({spec.secs, camera, spec.ease});
     }
     return render::AlongPath(keys, secs);
   }
-  if (place_) return *place_;
+  if (place_) return OnBase(*place_, state);
   // Only the direction counts then; wherever people are, it is the same to the last bit.
   if (fit_ == Fit::kClip) return NamedAt(camera_, {});
   // Robots have no ground: the view is as large as they are.

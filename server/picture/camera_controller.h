@@ -79,6 +79,7 @@ class CameraController {
 
   bool IsNamed() const { return !place_ && keys_.empty(); }
   render::Camera NamedAt(const std::string& name, const render::GroundExtent& ground) const;
+  render::Camera OnBase(render::Camera camera, const SceneState& state) const;
   render::Camera Placed(const SceneState& state, const render::GroundExtent& ground,
                         double secs) const;
   render::Camera Finished(const render::Camera& placed, const render::GroundExtent& ground,
@@ -111,6 +112,7 @@ class CameraController {
   bool holds_view_ = false;  // of an automatic fit whose future is not known
   render::FreeArea free_area_;
   CameraFrame frame_ = CameraFrame::kStart;
+  CameraBase base_;
   // Of the prescan:
   Follower prescan_follower_;
   render::BallHull clip_, clip_around_people_;  // world; relative to what the camera follows

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/picture/camera_keys.h"
 
@@ -60,6 +61,12 @@ CameraChoice ParseCamera(const std::string& text) {
   throw BadValue(fmt::format(
       "unknown camera '{}'; expected {}, X,Y,Z:X,Y,Z (position: target, m) or FILE.yaml with keys",
       text, fmt::join(render::CameraNames(), ", ")));
+}
+
+bool AreAllNamed(const std::vector<CameraChoice>& cameras) {
+  return std::none_of(cameras.begin(), cameras.end(), [](const CameraChoice& camera) {
+    return camera.place || camera.is_key_file;
+  });
 }
 
 CamerasValue::CamerasValue(std::size_t most)
@@ -120,6 +127,28 @@ std::string OrbitValue::Expected() const {
                      kMaxOrbit);
 }
 
+void CameraBaseValue::Parse(const std::string& text) {
+  using Turn = CameraBase::Turn;
+  const std::size_t colon = text.find(':');
+  const std::string turn = colon == std::string::npos ? "position" : text.substr(colon + 1);
+  CameraBase base;
+  base.frame = text.substr(0, colon);
+  if (base.frame.size() > 1 && base.frame.front() == '/') base.frame.erase(0, 1);
+  const bool is_turn = turn == "position" || turn == "heading" || turn == "pose";
+  if (!is_turn || !IsFrameName(base.frame)) RefuseText();
+  base.turn = turn == "heading" ? Turn::kHeading : turn == "pose" ? Turn::kFull : Turn::kNone;
+  value_ = std::move(base);
+}
+
+std::string CameraBaseValue::ToText() const {
+  constexpr const char* kTurns[] = {"", ":heading", ":pose"};
+  return value_.frame + kTurns[static_cast<int>(value_.turn)];
+}
+
+std::string CameraBaseValue::Expected() const {
+  return "a frame of TF, as FRAME (its position), FRAME:heading or FRAME:pose";
+}
+
 CameraOptions::CameraOptions()
     : projection({{"perspective", false}, {"orthographic", true}}, false),
       fov(Number(30, {1, 150, "degrees"})),
@@ -143,6 +172,9 @@ void CameraOptions::List(options::OptionList& option) {
          "what named cameras are turned with, so that front sees the face: start (the first "
          "person's heading at the first picture; live: when they first stood), person (their "
          "heading now) or world");
+  option("camera_tf", camera_tf,
+         "frame of TF (of a bag, or of ROS in serve) that a camera given by X,Y,Z:X,Y,Z goes with, "
+         "which is then relative to it: to its position, with its heading, or as it is turned");
   option("fit", fit,
          "how close a named camera comes, so that everything shown fills the free part of the "
          "picture: "

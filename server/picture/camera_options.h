@@ -22,6 +22,9 @@ struct CameraChoice {
 /// @throws options::BadValue.
 CameraChoice ParseCamera(const std::string& text);
 
+/// Whether none of them is given by coordinates, nor has keys that may be.
+bool AreAllNamed(const std::vector<CameraChoice>& cameras);
+
 /// One or several cameras.
 class CamerasValue : public options::ValueOf<std::vector<CameraChoice>> {
  public:
@@ -55,6 +58,28 @@ class OrbitValue : public options::ValueOf<Orbit> {
   std::vector<std::string> Names() const override { return {"turn"}; }
 };
 
+/// A frame of TF that a placed camera goes with: its place is relative to that of the frame.
+struct CameraBase {
+  enum class Turn {
+    kNone,     // with the axes of the scene
+    kHeading,  // turned with the frame about the vertical
+    kFull,     // as the frame
+  };
+  std::string frame;  // "": the camera stands
+  Turn turn = Turn::kNone;
+};
+
+/// FRAME, FRAME:heading or FRAME:pose.
+class CameraBaseValue : public options::ValueOf<CameraBase> {
+ public:
+  CameraBaseValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override;
+  std::string Expected() const override;
+  bool IsGiven() const override { return !value_.frame.empty(); }
+};
+
 enum class Fit { kAuto, kOff, kNow, kClip };
 
 struct CameraOptions {
@@ -66,6 +91,7 @@ struct CameraOptions {
   options::Optional<options::Number> follow;  // s of lag
   options::Choice<Fit> fit;
   options::Choice<CameraFrame> camera_frame;
+  CameraBaseValue camera_tf;
 
   void List(options::OptionList& option);
 };

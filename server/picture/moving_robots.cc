@@ -34,6 +34,7 @@ void AddBagView(const ViewOptions& options, SceneOptions& scene) {
   }
   scene.bag.topics = *options.marker_topics;
   scene.bag.robots = ReadMovingRobots(*options.robot);
+  scene.bag.camera_frame = scene.camera_frame = options.moves.camera_tf->frame;
 }
 
 }  // namespace kinescope::app

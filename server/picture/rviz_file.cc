@@ -239,10 +239,11 @@ class RvizReader {
     const rviz::View view = rviz::ViewOf(current, height_px_);
     if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
     const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
-    if (target != "<Fixed Frame>" && target != picture_.fixed_frame) {
-      Remark(place, "the view's Target Frame " + Quoted(target) +
-                        " is not followed; the camera stands as if it were at the origin");
-    }
+    const std::string kind = TextOf(current, "Class", "");
+    picture_.target.line = LineOf(place);
+    if (target != "<Fixed Frame>" && target != picture_.fixed_frame) picture_.target.frame = target;
+    if (kind == "rviz/ThirdPersonFollower") picture_.target.turn = ":heading";
+    if (kind == "rviz/FrameAligned") picture_.target.turn = ":pose";
     const render::Camera& camera = view.camera;
     if (std::max(camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff()) >
         kFarthest) {

@@ -16,6 +16,12 @@ struct RvizPicture {
     int line = 1;  // of the file
   };
   std::vector<Setting> settings;  // each option at most once
+  /// The frame that the view goes with, as --camera_tf has it; its line.
+  struct Target {
+    std::string frame;  // without a slash before it; "": the fixed frame
+    std::string turn;   // "", ":heading" or ":pose"
+    int line = 1;
+  } target;
   /// Of a display that is on and of a kind that can be shown from its topic.
   struct Topic {
     std::string name;     // as it was saved, such as "/goal"

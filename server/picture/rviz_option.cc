@@ -11,6 +11,7 @@
 #include "server/options/ros_names.h"
 #include "server/picture/rviz_file.h"
 #include "server/source/open_source.h"
+#include "urdf/segments.h"
 
 namespace kinescope::app {
 namespace {
@@ -19,7 +20,7 @@ using options::Channel;
 
 // A view belongs together: the field of view of a file is not that of a camera that was given.
 bool IsPartOfView(const std::string& option) {
-  return option == "camera" || option == "fov" || option == "projection";
+  return option == "camera" || option == "fov" || option == "projection" || option == "camera_tf";
 }
 
 bool HasGraph(options::OptionList& list) {
@@ -81,19 +82,85 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
            Channel::kFile);
 }
 
-// Of a graph it is the frame of the scene, or the camera of the file stands elsewhere.
-void CheckFixedFrame(const std::string& file, const RvizPicture& picture,
-                     options::OptionList& list) {
-  constexpr char kUsual[] = "map";  // of RViz, with or without a frame of this name
-  const options::Option* option = list.Find("reference_frame");
-  if (option != nullptr && !list.HasEffect("reference_frame")) option = nullptr;
-  const std::string ours = option == nullptr ? "world" : option->value->ToText();
-  if (picture.fixed_frame == ours || picture.fixed_frame == kUsual) return;
-  spdlog::warn("{}:{}: Fixed Frame '{}': the scene is drawn in '{}'{}", file,
-               picture.fixed_frame_line, PrintableLine(picture.fixed_frame.substr(0, 100)), ours,
-               option == nullptr ? ", the frame of its source"
-                                 : "; if the people are in that frame, give --reference_frame");
+std::string Quoted(const std::string& name) {
+  return "'" + PrintableLine(name.substr(0, 100)) + "'";
 }
+
+// The fixed frame of the file is that of the scene, or a camera that stands in it goes with it.
+class Frames {
+ public:
+  Frames(const std::string& file, const RvizPicture& picture, options::OptionList& list)
+      : file_(file), picture_(picture), list_(list) {
+    const options::Option* option = list.Find("reference_frame");
+    is_of_source_ = option == nullptr || !list.HasEffect("reference_frame");
+    if (!is_of_source_) ours_ = option->value->ToText();
+  }
+
+  /// `has_camera`: one that does not come from the file.
+  void Apply(bool has_camera) {
+    const RvizPicture::Target& target = picture_.target;
+    const bool is_fixed_ours = picture_.fixed_frame == ours_;
+    bool is_in_fixed = is_fixed_ours;  // as RViz has it
+    if (!target.frame.empty() && target.frame != ours_) {
+      Follow(target.frame, target.turn, has_camera);
+    } else if (target.frame.empty() && !is_fixed_ours) {
+      is_in_fixed = Follow(picture_.fixed_frame, ":pose", has_camera);
+    }
+    if (!is_fixed_ours) Warn(is_in_fixed);
+  }
+
+ private:
+  static constexpr char kUsual[] = "map";  // of RViz, with or without a frame of this name
+
+  // False: the camera stands.
+  bool Follow(const std::string& frame, const std::string& turn, bool has_camera) {
+    options::Option* const option = list_.Find("camera_tf");
+    if (has_camera || option == nullptr || option->channel != Channel::kDefault) return false;
+    const bool is_name = IsFrameName(frame), is_there = HasTopics(list_) || IsOfPerson(frame);
+    if (is_name && is_there) {
+      list_.Set(*option, option->name,
+                {frame + turn, fmt::format("{}:{}: ", file_, picture_.target.line)},
+                Channel::kFile);
+      return true;
+    }
+    if (!picture_.target.frame.empty()) {
+      spdlog::warn(
+          "{}:{}: the view's Target Frame {} is not followed: {}; the camera stands as if it were "
+          "at the origin",
+          file_, picture_.target.line, Quoted(frame),
+          is_name ? "the source has no frames but those of people (a bag has, and serve with ROS)"
+                  : "it is no name of a frame");
+    }
+    return false;
+  }
+
+  // "skeleton_pelvis"; if there is no such person, the scene says it.
+  static bool IsOfPerson(const std::string& frame) {
+    return std::any_of(urdf::kSegments.begin(), urdf::kSegments.end(), [&](const auto& segment) {
+      const std::string end = "_" + std::string(segment.link_name);
+      return frame.size() > end.size() &&
+             frame.compare(frame.size() - end.size(), std::string::npos, end) == 0;
+    });
+  }
+
+  void Warn(bool is_in_fixed) {
+    if (picture_.fixed_frame == kUsual) return;
+    const std::string what =
+        is_in_fixed ? "the camera stands in it, the floor is that of" : "the scene is drawn in";
+    const std::string then = is_of_source_ ? ", the frame of its source"
+                             : is_in_fixed
+                                 ? ""
+                                 : "; if the people are in that frame, give --reference_frame";
+    spdlog::warn("{}:{}: Fixed Frame {}: {} '{}'{}", file_, picture_.fixed_frame_line,
+                 Quoted(picture_.fixed_frame), what, ours_, then);
+  }
+
+  const std::string& file_;
+  const RvizPicture& picture_;
+  options::OptionList& list_;
+  std::string ours_ = "world";
+  bool is_of_source_ = false;
+};
 
 }  // namespace
 
@@ -115,7 +182,7 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   }
   ApplyRobots(*file, picture.robots, list);
   ApplyTopics(*file, picture.topics, list);
-  CheckFixedFrame(*file, picture, list);
+  Frames(*file, picture, list).Apply(has_camera);
   for (const std::string& remark : picture.remarks) spdlog::warn("{}", remark);
   if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *file, missing);
   list.CheckEffects();

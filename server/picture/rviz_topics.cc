@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/suit_colors.h"
 #include "server/options/ros_names.h"
@@ -53,11 +54,9 @@ struct Untaken {
   const char* otherwise;
 };
 constexpr Untaken kUntaken[] = {
-    {"Decay Time", "0", "only the newest points are drawn"},
-    {"History Length", "1", "only the newest is drawn"},
-    {"Buffer Length", "1", "only the newest is drawn"},
     {"Draw Behind", "false", "it is drawn in front of what is below it"}};
 constexpr const char* kKeepingDisplay = "rviz/Odometry";
+constexpr const char* kHistories[] = {"History Length", "Buffer Length"};  // of other displays
 
 const ShownProperties* Find(const std::string& kind) {
   const auto* const found =
@@ -83,6 +82,7 @@ class StyleReader {
     AddShapeAndSize();
     if (kind_ == "rviz/Map") AddScheme();
     if (kind_ == kWrenchDisplay) AddArrows();
+    AddEarlier();
     NameUntaken();
     if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
     return std::move(style_);
@@ -213,15 +213,32 @@ class StyleReader {
     }
   }
 
+  void AddEarlier() {
+    const auto number = [&](const char* property, double usual, double most) {
+      return NumberOf(display_, property, usual, 0, most);
+    };
+    constexpr auto kMostKept = static_cast<double>(kMostKeptMessages);
+    if (kind_ == kKeepingDisplay) {
+      const double kept = number("Keep", 100, kMostKept);  // 0: all
+      Add("keep=" + options::NumberText(kept < 1 ? kMostKept : std::floor(kept)));
+      Add("step=" + options::NumberText(number("Position Tolerance", 0.1, kLargestStep)));
+      Add("turn=" + options::NumberText(number("Angle Tolerance", 0.1, kLargestStep)));
+      return;
+    }
+    for (const char* const property : kHistories) {
+      const double kept = std::floor(number(property, 1, kMostKept));
+      if (kept > 1) Add("keep=" + options::NumberText(kept));
+    }
+    const double decay = number("Decay Time", 0, kLongestDecay);
+    if (decay > 0) Add("decay=" + options::NumberText(decay));
+  }
+
   void NameUntaken() {
     for (const Untaken& each : kUntaken) {
       const std::string value = TextOf(display_, each.property, each.usual);
       if (value != each.usual) {
         Remark(std::string(each.property) + " '" + value + "': " + each.otherwise);
       }
-    }
-    if (kind_ == kKeepingDisplay && TextOf(display_, "Keep", "100") != "1") {
-      Remark("only the newest pose is drawn (Keep '" + TextOf(display_, "Keep", "100") + "')");
     }
     const YAML::Node covariance = Member(display_, "Covariance");
     if (covariance.IsDefined() && BoolOf(covariance, "Value", true)) {

@@ -440,6 +440,7 @@ void ViewOptions::List(options::OptionList& option) {
   for (const char* name : {"dpi", "text_pt"}) {
     option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
   }
+  option.HasNoEffect("camera_tf", "with a named camera", [this] { return AreAllNamed(*camera); });
   const auto no_overlays_at_all = [this] { return *no_overlays; };
   for (const char* name : {"title", "overlay", "legend", "plot", "text_pt"}) {
     option.HasNoEffect(name, "with --no_overlays", no_overlays_at_all);

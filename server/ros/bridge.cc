@@ -113,6 +113,7 @@ class InWallTime : public InputSink {
   void OnMarkers(const MarkerList& markers) override { sink_.OnMarkers(markers); }
   void OnImages(const ImageList& images) override { sink_.OnImages(images); }
   void OnRobots(const RobotList& robots) override { sink_.OnRobots(robots); }
+  void OnCameraBase(const urdf::Pose& pose) override { sink_.OnCameraBase(pose); }
   void OnMark(const std::string& text) override { sink_.OnMark(text); }
   void OnViewListeners(int count) override { sink_.OnViewListeners(count); }
 
@@ -239,8 +240,9 @@ class Bridge : public RosBridge {
   }
 
   std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
-    if (config_.shown.topics.empty()) return nullptr;
-    return std::make_shared<MarkerInbox>(config_.shown.topics, config_.reference_frame,
+    const GraphView& shown = config_.shown;
+    if (shown.topics.empty() && shown.camera_frame.empty()) return nullptr;
+    return std::make_shared<MarkerInbox>(shown.topics, shown.camera_frame, config_.reference_frame,
                                          transforms_);
   }
 

@@ -176,6 +176,8 @@ class InputSink {
   virtual void OnImages(const ImageList& /*images*/) {}
   /// All robots that the graph moves, in the world frame; called when one has moved.
   virtual void OnRobots(const RobotList& /*robots*/) {}
+  /// Where the frame is that the camera goes with, in the world frame; called when it has moved.
+  virtual void OnCameraBase(const urdf::Pose& /*pose*/) {}
   /// A text on `~mark`: what the newest sample is to be marked with.
   virtual void OnMark(const std::string& /*text*/) {}
   /// The number of subscribers of the view; each new one needs a picture at once.

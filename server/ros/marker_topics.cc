@@ -40,11 +40,12 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
 
 }  // namespace
 
-MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string reference_frame,
-                         std::shared_ptr<const TfTree> tf)
+MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
+                         std::string reference_frame, std::shared_ptr<const TfTree> tf)
     : topics_(Resolved(std::move(topics))),
       reference_frame_(std::move(reference_frame)),
-      tf_(std::move(tf)) {
+      tf_(std::move(tf)),
+      camera_base_(std::move(camera_frame)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
     if (topic.is_frame) {
@@ -103,9 +104,11 @@ void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
 void MarkerInbox::TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
                             std::int64_t monotonic_nanos) {
   if (!markers) return Refuse(topic, markers.error());
+  const ShownStyle& style = topics_[topic].style;
+  if (!shelf_.Place(topic, style.earlier, *markers)) return CountUsed(topic);
   NameByTopic(*markers, topics_[topic].name);
   for (const visualization_msgs::Marker& marker : *markers) {
-    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos, topics_[topic].style)) {
+    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos, style)) {
       return Refuse(topic, *refusal);
     }
   }
@@ -163,6 +166,8 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
       });
   if (changed) sink.OnMarkers(store_.markers());
   if (images_.TakeChanged()) sink.OnImages(images_.images());
+  const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
+  if (camera_base_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_base_.pose());
   for (const MarkerStore::Lost& lost : store_.TakeLost()) {
     const std::lock_guard<std::mutex> lock(mutex_);
     InputCounters& counters = counters_[topics_[lost.topic].name];

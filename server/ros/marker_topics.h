@@ -20,6 +20,8 @@
 #include "core/graph_view.h"
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
+#include "server/ros/camera_base.h"
+#include "server/ros/earlier_messages.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
@@ -31,7 +33,7 @@ namespace kinescope::ros_bridge {
 class MarkerInbox {
  public:
   /// At most kMostShownTopics. @throws UsageError with an invalid name. @pre InitRos was called.
-  MarkerInbox(std::vector<ShownTopic> topics, std::string reference_frame,
+  MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame, std::string reference_frame,
               std::shared_ptr<const TfTree> tf);
 
   const std::vector<ShownTopic>& topics() const { return topics_; }  // with their full names
@@ -42,7 +44,7 @@ class MarkerInbox {
   void OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos);
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
-  /// Passes on the markers and the pictures if they have changed.
+  /// Passes on the markers, the pictures and the camera's frame if they have changed.
   void Deliver(std::int64_t monotonic_nanos, InputSink& sink);
 
   /// By topic. Any thread.
@@ -68,7 +70,9 @@ class MarkerInbox {
 
   // Used by the thread that reads samples only.
   MarkerStore store_;
+  MessageShelf shelf_;
   ImageBox images_;
+  CameraBase camera_base_;
   std::map<int, Body> bodies_;             // by character
   visualization_msgs::Marker marker_;      // reused, keeps its memory
   visualization_msgs::MarkerArray array_;  // reused, keeps its memory

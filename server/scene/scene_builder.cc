@@ -4,12 +4,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <limits>
 #include <utility>
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
+#include "core/system/starts_with.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
@@ -242,7 +244,45 @@ void SceneBuilder::Publish(Liveness liveness) {
     if (!IsWithin(kGoneAfterNanos, left_out.moment)) continue;
     scene->left_out.push_back({id, characters_[id].name, left_out.doubt.text});
   }
+  PlaceCamera(*scene);
   on_state_(scene);
+}
+
+// A link of a person is where it is in this very sample; another frame where it was found last.
+void SceneBuilder::PlaceCamera(SceneState& scene) {
+  const std::string& frame = options_.camera_frame;
+  if (frame.empty()) return;
+  for (const PersonState& person : scene.people) {
+    const std::string prefix = person.model->human.model_name + "_";
+    if (!StartsWith(frame, prefix)) continue;
+    const auto* const segment =
+        std::find_if(urdf::kSegments.begin(), urdf::kSegments.end(), [&](const auto& each) {
+          return frame.compare(prefix.size(), std::string::npos, each.link_name) == 0;
+        });
+    if (segment == urdf::kSegments.end()) continue;
+    const auto link = static_cast<std::size_t>(segment - urdf::kSegments.begin());
+    scene.camera_base = current_.camera_base = person.links[link];
+    return;
+  }
+  // Frames of TF may come some time after the first sample.
+  constexpr double kPatienceSecs = 5;
+  if (scene.people.empty() || scene.camera_base) return;
+  if (!camera_since_nanos_) camera_since_nanos_ = scene.stamp_nanos;
+  if (Secs(scene.stamp_nanos - *camera_since_nanos_) > kPatienceSecs) WarnOfCamera();
+}
+
+// Once per program, although a clip is read twice.
+void SceneBuilder::WarnOfCamera() const {
+  static std::atomic<bool> is_told{false};
+  if (is_told.exchange(true)) return;
+  spdlog::warn(
+      "no frame '{}' has come (--camera_tf), neither of TF nor of a person; the camera stands as "
+      "if it were at the origin",
+      options_.camera_frame);
+}
+
+SceneBuilder::~SceneBuilder() {
+  if (camera_since_nanos_ && !current_.camera_base) WarnOfCamera();
 }
 
 void SceneBuilder::SetRobots(std::vector<RobotState> robots) {
@@ -280,6 +320,11 @@ void SceneBuilder::SetMarkers(MarkerList markers) {
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 
+void SceneBuilder::SetCameraBase(const urdf::Pose& pose) {
+  current_.camera_base = pose;
+  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+}
+
 void SceneBuilder::SetImages(ImageList images) {
   node_images_ = std::move(images);
   PlaceImages();
@@ -295,6 +340,7 @@ void SceneBuilder::OnSurroundings(const RecordedSurroundings& all) {
   const bool has_new_markers = all.markers != recorded_.markers;
   recorded_ = all;
   PlaceImages();
+  if (all.camera_base) current_.camera_base = all.camera_base;
   if (has_new_markers) PlaceMarkers();
   PlaceRobots();
 }

@@ -34,6 +34,9 @@ struct SceneOptions : ModelSettings {
   double stale_secs = 0.5;        // time without samples after which the stream is stale, s
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
   GraphView bag;                  // what SceneReader shows of a bag
+  /// Of SceneState::camera_base, unless OnSurroundings() or SetCameraBase() place it: a link of a
+  /// person, "skeleton_pelvis". "": the camera goes with nothing.
+  std::string camera_frame;
   /// Measured forces of a recording, on the first person; in place of SetMeasurements().
   std::optional<wrenches::WrenchSettings> wrenches;
   /// Changed bodies are made on a thread of their own and used when they are ready, so that they
@@ -51,6 +54,10 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// may complete it. Start delivers the first one, "no
   /// data". @throws SourceError, UsageError if the file of measured forces is refused
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
+
+  ~SceneBuilder() override;
+  SceneBuilder(const SceneBuilder&) = delete;
+  SceneBuilder& operator=(const SceneBuilder&) = delete;
 
   void Start();
   /// The body of the first person until the source sends its own segment lengths.
@@ -93,6 +100,10 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Sets the robots that other nodes move, in the world frame; as SetMarkers().
   void SetMovingRobots(RobotList robots);
 
+  /// Sets where the frame is that the camera goes with, in place of that of the recording; as
+  /// SetMarkers().
+  void SetCameraBase(const urdf::Pose& pose);
+
   /// How long the next samples waited in this machine before they were processed, ns; part of the
   /// states.
   void SetWaited(std::int64_t nanos) { waited_nanos_ = nanos; }
@@ -127,6 +138,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   void PlaceMarkers();
   void PlaceImages();
   void PlaceRobots();
+  void PlaceCamera(SceneState& scene);
+  void WarnOfCamera() const;
 
   struct TrackedGroup {
     std::vector<TrackedObject> objects;
@@ -158,6 +171,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
   RecordedSurroundings recorded_;
+  std::optional<std::int64_t> camera_since_nanos_;  // stamp of the first state without its frame
   MarkerList node_markers_;
   ImageList node_images_;
   RobotList node_robots_;

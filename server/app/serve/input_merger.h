@@ -64,6 +64,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnMarkers(const MarkerList& markers) override { builder_.SetMarkers(markers); }
   void OnImages(const ImageList& images) override { builder_.SetImages(images); }
   void OnRobots(const RobotList& robots) override { builder_.SetMovingRobots(robots); }
+  void OnCameraBase(const urdf::Pose& pose) override { builder_.SetCameraBase(pose); }
   void OnViewListeners(int count) override;
   void OnMark(const std::string& text) override;
   void Process(const BodySample& sample, std::int64_t waited_nanos);

@@ -138,6 +138,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   if (!options.ros_view_camera && camera.place) {
     options_of_ros.fov = options.camera_moves.fov;
     options_of_ros.projection = options.camera_moves.projection;
+    options_of_ros.camera_tf = options.camera_moves.camera_tf;
   }
   options_of_ros.camera_frame = CameraFrame::kWorld;  // as RViz's views
   settings.camera = CameraController(camera, options_of_ros);
@@ -207,14 +208,21 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   const bool is_bag = IsBag(config.source_url);
   std::vector<GraphRobot> robots = ReadMovingRobots(*options.robot);
   config.source.bag = config.scene.bag;
-  if (is_bag) config.source.bag.topics = *options.marker_topics;
+  const std::string& camera_frame = options.camera_moves.camera_tf->frame;
+  config.scene.camera_frame = camera_frame;
+  if (is_bag) {
+    config.source.bag.topics = *options.marker_topics;
+    config.source.bag.camera_frame = camera_frame;
+  }
   std::vector<GraphRobot> of_graph;
   for (GraphRobot& robot : robots) {
     const bool is_of_bag = is_bag && robot.parameter.empty();
     (is_of_bag ? config.source.bag.robots : of_graph).push_back(std::move(robot));
   }
   if (config.ros) {
-    config.ros->shown = {*options.marker_topics, std::move(of_graph)};
+    config.ros->shown.topics = *options.marker_topics;
+    config.ros->shown.robots = std::move(of_graph);
+    if (!is_bag) config.ros->shown.camera_frame = camera_frame;
     return;
   }
   for (const GraphRobot& robot : of_graph) {

@@ -204,6 +204,9 @@ void ServeOptions::List(options::OptionList& option) {
   for (const char* name : {"ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
     option.HasNoEffect(name, "with --ros_view=off", [this] { return !*ros_view; });
   }
+  option.HasNoEffect("camera_tf", "with a named camera", [this] {
+    return AreAllNamed(*camera) && (!ros_view_camera || AreAllNamed(*ros_view_camera));
+  });
   for (const char* name :
        {"camera", "projection", "fov", "orbit", "follow", "fit", "picture_size", "picture_rate_hz",
         "backend", "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {

@@ -49,7 +49,8 @@ bool IsWhole(const BagMessage& message) { return message.bytes.size() == message
 
 }  // namespace
 
-BagSurroundings::BagSurroundings(const GraphView& view) : shown_topics_(ByName(view.topics)) {
+BagSurroundings::BagSurroundings(const GraphView& view)
+    : shown_topics_(ByName(view.topics)), camera_base_(view.camera_frame) {
   for (const ShownTopic& topic : view.topics) {
     if (!topic.is_frame) continue;
     // A topic begins with a slash, this name does not.
@@ -134,6 +135,7 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
   const auto number = NumberOf(message.connection->topic, counters);
   if (!number) return;
   has_markers_ = true;
+  if (!shelf_.Place(*number, style.earlier, *shown)) return;
   NameByTopic(*shown, WithSlash(message.connection->topic));
   for (const visualization_msgs::Marker& marker : *shown) {
     if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos, style)) {
@@ -169,7 +171,8 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
 }
 
 void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
-  if (has_markers_ || !robots_.empty() || is_static) tf_.Add(message, is_static);
+  const bool is_used = has_markers_ || !robots_.empty() || camera_base_.is_wanted() || is_static;
+  if (is_used) tf_.Add(message, is_static);
 }
 
 bool BagSurroundings::PlaceRobots(std::int64_t now_nanos, const std::string& world) {
@@ -198,8 +201,10 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
   const bool has_new_images = images_.TakeChanged();
-  if (has_moved || has_new_markers || has_new_images) {
-    RecordedSurroundings all{store_.markers(), {}, images_.images()};
+  const bool has_new_base =
+      camera_base_.Update(now_nanos, [&find](const std::string& frame) { return find(frame, 0); });
+  if (has_moved || has_new_markers || has_new_images || has_new_base) {
+    RecordedSurroundings all{store_.markers(), {}, images_.images(), camera_base_.pose()};
     for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
     sink.OnSurroundings(all);
   }

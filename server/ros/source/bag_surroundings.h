@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "core/source.h"
+#include "server/ros/camera_base.h"
+#include "server/ros/earlier_messages.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
@@ -69,7 +71,9 @@ class BagSurroundings {
   std::optional<std::int64_t> placed_nanos_;
   bool has_markers_ = false;
   MarkerStore store_;
+  MessageShelf shelf_;
   ImageBox images_;
+  CameraBase camera_base_;
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;  // their numbers
   std::set<std::string> lost_frames_;          // that were warned of

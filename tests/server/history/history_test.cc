@@ -115,6 +115,7 @@ TEST(History, KeepsRobotsWhereTheyWereAndTheMarkersThatWereThere) {
   for (std::uint64_t number = 1; number <= 130; ++number) {
     const auto state = StateAt(number);
     state->robots = {ArmAt(number)};
+    if (number >= 60) state->camera_base = urdf::Pose{{0.5, 1, 2}, Eigen::Quaterniond(0, 0, 0, 1)};
     state->markers = {wall};
     if (number >= 60) state->markers.push_back(goal);
     state->surroundings = number >= 60 ? 2 : 1;
@@ -124,6 +125,8 @@ TEST(History, KeepsRobotsWhereTheyWereAndTheMarkersThatWereThere) {
   const auto before = history.Numbered(59), after = history.Numbered(60);
   EXPECT_EQ(before->markers, MarkerList({wall}));
   EXPECT_EQ(before->surroundings, 1u);
+  EXPECT_FALSE(before->camera_base);
+  ExpectSamePose(after->camera_base.value(), {{0.5, 1, 2}, Eigen::Quaterniond(0, 0, 0, 1)});
   EXPECT_EQ(after->markers, MarkerList({wall, goal}));
   EXPECT_EQ(after->surroundings, 2u);
   ASSERT_EQ(after->robots.size(), 1u);

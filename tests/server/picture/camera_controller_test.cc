@@ -119,6 +119,38 @@ TEST(CameraController, TurnsWithThePersonOrNotAtAllOnRequest) {
   EXPECT_NEAR(Side(controller.Aim(TurnedScene(70, 9), kAspect)), 70, 0.5);
 }
 
+TEST(CameraController, GoesWithAFrameIfItWasPlacedByPoints) {
+  const CameraChoice placed = ParseCamera("2,0,1:0,0,1:0,0,2");
+  SceneState state = SceneAt(0, 0);
+  const auto aimed = [&](const std::string& base) {
+    CameraOptions options;
+    if (!base.empty()) options.camera_tf.Parse(base);
+    return CameraController(placed, options).Aim(state, kAspect);
+  };
+  const auto expect = [&](const std::string& base, const Vector3d& position, const Vector3d& target,
+                          const Vector3d& up) {
+    const render::Camera camera = aimed(base);
+    EXPECT_LT((camera.position - position).norm(), 1e-9) << base << camera.position.transpose();
+    EXPECT_LT((camera.target - target).norm(), 1e-9) << base << camera.target.transpose();
+    EXPECT_LT((camera.up.normalized() - up).norm(), 1e-9) << base << camera.up.transpose();
+  };
+  expect("cart", {2, 0, 1}, {0, 0, 1}, Vector3d::UnitZ());  // it has no place yet
+  // Turned to the left, then tipped forward: its x looks down, its z ahead.
+  state.camera_base =
+      urdf::Pose{{10, 20, 3},
+                 Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()) *
+                     Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 3, Vector3d::UnitY()))};
+  expect("", {2, 0, 1}, {0, 0, 1}, Vector3d::UnitZ());
+  expect("cart", {12, 20, 4}, {10, 20, 4}, Vector3d::UnitZ());
+  expect("cart:heading", {10, 22, 4}, {10, 20, 4}, Vector3d::UnitZ());
+  const double c = std::cos(M_PI / 3), s = std::sin(M_PI / 3);
+  expect("cart:pose", {10, 20 + 2 * c + s, 3 - 2 * s + c}, {10, 20 + s, 3 + c}, {0, s, c});
+  CameraOptions options;
+  options.camera_tf.Parse("cart");
+  EXPECT_NEAR(Side(CameraController(ParseCamera("front"), options).Aim(state, kAspect)), 0, 1e-6)
+      << "named cameras are of the people";
+}
+
 TEST(CameraController, SaysHowItIsTurnedForAPersonWhoDoesNotStand) {
   const auto person = [](double degrees, const Vector3d& axis) {
     SceneState state = SceneAt(0, 0);

@@ -190,11 +190,22 @@ TEST(RvizFile, ReadsValuesAsRvizDoes) {
   EXPECT_EQ(settings.at("background"), "#ff0007");
 }
 
-TEST(RvizFile, NamesAViewThatIsNotOfRvizAndAFrameThatIsNotFollowed) {
+TEST(RvizFile, NamesAViewThatIsNotOfRviz) {
   const RvizPicture picture =
       ReadText(WithView("      {Class: plugin/Animated, Target Frame: base_link}\n"));
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("4: the view 'plugin/Animated' is not one of")));
-  EXPECT_THAT(picture.remarks, Contains(HasSubstr("Target Frame 'base_link' is not followed")));
+}
+
+TEST(RvizFile, HasTheFrameThatTheViewGoesWith) {
+  const auto target_of = [](const std::string& view) {
+    const RvizPicture::Target target = ReadText(WithView("      {" + view + "}\n")).target;
+    return target.frame + target.turn;
+  };
+  EXPECT_EQ(target_of("Class: rviz/Orbit, Target Frame: /base_link"), "base_link");
+  EXPECT_EQ(target_of("Class: rviz/Orbit, Target Frame: <Fixed Frame>"), "");
+  EXPECT_EQ(target_of("Class: rviz/XYOrbit, Target Frame: map"), "") << "it is the fixed frame";
+  EXPECT_EQ(target_of("Class: rviz/ThirdPersonFollower, Target Frame: cart"), "cart:heading");
+  EXPECT_EQ(target_of("Class: rviz/FrameAligned, Target Frame: cam"), "cam:pose");
 }
 
 TEST(RvizFile, IsRefusedWithPlaceAndReason) {
@@ -232,8 +243,7 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[2].style, "");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
   EXPECT_EQ(picture.topics[3].name, "/odom");
-  EXPECT_THAT(picture.remarks, Contains("saved.rviz:12: rviz/Odometry 'Odometry': only the newest "
-                                        "pose is drawn (Keep '100')"));
+  EXPECT_EQ(picture.topics[3].style, "(keep=100,step=0.1,turn=0.1)");
 }
 
 TEST(RvizFile, HasColoursOpacityAndSizesOfDisplays) {
@@ -277,8 +287,9 @@ Visualization Manager:
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
                   "(shape=axes,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)", "", "(by=z)",
                   "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)", "(size=10)",
-                  "(color=#0000ff,alpha=0.5,size=0.75)", "(alpha=0.25,scheme=costmap)", "",
-                  "(color=#19ff00)", "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
+                  "(color=#0000ff,alpha=0.5,size=0.75,keep=1,step=0.1,turn=0.1)",
+                  "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)", "(by=x,from=-1,to=2.5)",
+                  "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark : {"'': Covariance is not drawn", "Draw Behind 'true': it is drawn in",
                              "Color Scheme 'raw' is drawn as 'map'",
@@ -337,6 +348,32 @@ Visualization Manager:
   EXPECT_FALSE((*value)[1].style.wrench.hides_small);
 }
 
+TEST(RvizFile, HasHowManyMessagesAreShown) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/Odometry, Enabled: true, Topic: /a, Keep: 0, Position Tolerance: 0.5, Angle Tolerance: 0}
+    - {Class: rviz/PointCloud2, Enabled: true, Topic: /b, Decay Time: 5}
+    - {Class: rviz/WrenchStamped, Enabled: true, Topic: /c, History Length: 20, Hide Small Values: true}
+    - {Class: rviz/Path, Enabled: true, Topic: /d, Buffer Length: 100000}
+    - {Class: rviz/LaserScan, Enabled: true, Topic: /e, Decay Time: 1e9}
+)");
+  std::vector<ShownTopic> topics;
+  for (const RvizPicture::Topic& topic : picture.topics) {
+    ShownTopicsValue value;
+    value.Parse(topic.name + topic.style);
+    topics.push_back(value->front());
+  }
+  ASSERT_EQ(topics.size(), 5u);
+  EXPECT_EQ(topics[0].style.earlier.keep, 1000u) << "all";
+  EXPECT_EQ(topics[0].style.earlier.step_m, 0.5);
+  EXPECT_EQ(topics[0].style.earlier.turn_rad, 0);
+  EXPECT_EQ(topics[1].style.earlier.decay_secs, 5);
+  EXPECT_EQ(topics[2].style.earlier.keep, 20u);
+  EXPECT_EQ(topics[3].style.earlier.keep, 1000u);
+  EXPECT_EQ(topics[4].style.earlier.decay_secs, 600);
+}
+
 TEST(RvizFile, HasAxesOfFrames) {
   const RvizPicture picture = ReadText(R"(
 Visualization Manager:
@@ -372,6 +409,12 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(shape=cube)",
                           "/a(scheme=raw)",
                           "/a(points=0)",
+                          "/a(keep=0)",
+                          "/a(keep=1001)",
+                          "/a(keep=2.5)",
+                          "/a(decay=-1)",
+                          "/a(decay=601)",
+                          "/a(step=far)",
                           "/a(points=100001)",
                           "/a(points=1.5)",
                           "/a(by=)",
@@ -451,6 +494,55 @@ TEST(RvizOption, NamesAFixedFrameThatIsNotThatOfTheScene) {
   EXPECT_THAT(said_for("odom", ""), HasSubstr("drawn in 'world', the frame of its source"));
   EXPECT_THAT(said_for("ground", "ground"), Not(HasSubstr("Fixed Frame")));
   EXPECT_THAT(said_for("map", "world"), Not(HasSubstr("Fixed Frame")));
+}
+
+TEST(RvizOption, LetsTheCameraGoWithTheFrameOfTheViewWhereThereAreFrames) {
+  const kinescope::testing::TempFolder folder;
+  const std::string file = folder / "lab.rviz";
+  options::FilePath rviz;
+  rviz.Parse(file);
+  struct Applied {
+    std::string camera_tf, said;
+  };
+  const auto apply = [&](const std::string& fixed, const std::string& view,
+                         const std::string& ros = "on", bool has_camera = false) {
+    std::ofstream(file) << "Visualization Manager:\n  Global Options: {Fixed Frame: " << fixed
+                        << "}\n  Views: {Current: {" << view << "}}\n";
+    options::Text frame("world"), graph(ros);
+    CamerasValue camera(1);
+    CameraBaseValue base;
+    options::OptionList list;
+    list("reference_frame", frame, "the frame of the scene");
+    list("ros", graph, "whether there is a graph");
+    list("camera", camera, "where the camera stands");
+    list("camera_tf", base, "what it goes with");
+    if (has_camera)
+      list.Set(*list.Find("camera"), "camera", {"front", ""}, options::Channel::kCommandLine);
+    const kinescope::testing::CapturedLog log;
+    ApplyRviz(rviz, kPictureHeight, list);
+    return Applied{base.ToText(), log.text()};
+  };
+  const Applied cart = apply("world", "Class: rviz/ThirdPersonFollower, Target Frame: cart");
+  EXPECT_EQ(cart.camera_tf, "cart:heading");
+  EXPECT_THAT(cart.said, Not(HasSubstr("Frame")));
+  EXPECT_EQ(apply("world", "Class: rviz/Orbit, Target Frame: world").camera_tf, "");
+  const Applied odom = apply("odom", "Class: rviz/Orbit");
+  EXPECT_EQ(odom.camera_tf, "odom:pose");
+  EXPECT_THAT(odom.said, HasSubstr("lab.rviz:2: Fixed Frame 'odom': the camera stands in it, the "
+                                   "floor is that of 'world'"));
+  const Applied both = apply("odom", "Class: rviz/Orbit, Target Frame: cart");
+  EXPECT_EQ(both.camera_tf, "cart");
+  EXPECT_THAT(both.said, HasSubstr("Fixed Frame 'odom': the scene is drawn in 'world'"));
+  EXPECT_EQ(apply("odom", "Class: rviz/Orbit", "on", /*has_camera=*/true).camera_tf, "");
+  const Applied bare = apply("world", "Class: rviz/Orbit, Target Frame: cart", "off");
+  EXPECT_EQ(bare.camera_tf, "");
+  EXPECT_THAT(bare.said, HasSubstr("lab.rviz:3: the view's Target Frame 'cart' is not followed: "
+                                   "the source has no frames but those of people (a bag has, and "
+                                   "serve with ROS)"));
+  EXPECT_EQ(apply("world", "Class: rviz/Orbit, Target Frame: skeleton_pelvis", "off").camera_tf,
+            "skeleton_pelvis");
+  EXPECT_THAT(apply("world", "Class: rviz/Orbit, Target Frame: \"a b\"").said,
+              HasSubstr("'a b' is not followed: it is no name of a frame"));
 }
 
 TEST(RvizFile, ReadsWhatOthersSavedAsRvizItselfDoes) {

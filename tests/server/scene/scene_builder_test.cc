@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "server/subject/subject.h"
+#include "tests/captured_log.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {
@@ -95,6 +96,42 @@ TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
   built.builder.OnSample(SampleOf("lift", 2));
   EXPECT_EQ(built.last().robots.size(), 2u) << "of the recording, and of other nodes";
   EXPECT_EQ(built.last().surroundings, before + 1);
+}
+
+TEST(SceneBuilder, HasTheFrameThatTheCameraGoesWith) {
+  SceneOptions options;
+  options.camera_frame = "skeleton_head";
+  Built of_person(options);
+  of_person.builder.OnSample(SampleOf("lift", 0));
+  const SceneState& state = of_person.last();
+  ASSERT_EQ(state.people.at(0).model->human.model_name, "skeleton");
+  EXPECT_EQ(state.camera_base.value().position,
+            state.people[0].links[urdf::At(urdf::kHead)].position);
+  options.camera_frame = "cart";
+  Built of_tf(options);
+  of_tf.builder.OnSample(SampleOf("lift", 0));
+  EXPECT_FALSE(of_tf.last().camera_base);
+  of_tf.builder.OnSurroundings({{}, {}, {}, urdf::Pose{Vector3d(1, 2, 3), {1, 0, 0, 0}}});
+  of_tf.builder.OnSample(SampleOf("lift", 1));
+  EXPECT_EQ(of_tf.last().camera_base.value().position, Vector3d(1, 2, 3));
+  of_tf.builder.OnSurroundings({});
+  of_tf.builder.SetCameraBase({Vector3d(4, 5, 6), {1, 0, 0, 0}});
+  of_tf.builder.OnSample(SampleOf("lift", 2));
+  EXPECT_EQ(of_tf.last().camera_base.value().position, Vector3d(4, 5, 6));
+}
+
+TEST(SceneBuilder, SaysOnceThatTheFrameOfTheCameraDoesNotCome) {
+  SceneOptions options;
+  options.camera_frame = "moon";
+  const kinescope::testing::CapturedLog log;
+  for (int i = 0; i < 2; ++i) {
+    Built built(options);
+    built.builder.OnSample(SampleOf("lift", 0));
+  }
+  const std::string said = log.text();
+  const std::size_t first = said.find("no frame 'moon' has come (--camera_tf)");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("no frame", first + 1), std::string::npos) << said;
 }
 
 TEST(SceneBuilder, ShowsTheMarkersOfARecordingWithItsSamplesBesideThoseOfOtherNodes) {

@@ -1,5 +1,6 @@
 // A scene of a lab, shown by RViz and by `kinescope serve --rviz` with the configuration that RViz
-// has saved: a robot that TF moves, a point cloud, a path, a pose, a marker, and the person.
+// has saved: a robot that TF moves, point clouds, a path, a force, a value, a marker and the
+// person, from a camera that goes with a frame.
 #include <fmt/ranges.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -54,7 +55,7 @@ Visualization Manager:
     - {Class: rviz/PointCloud2, Name: Cloud, Enabled: true, Value: true, Topic: /cloud, Alpha: 1,
        Style: Boxes, Size (m): 0.03, Color Transformer: FlatColor, Color: 230; 30; 220}
     - {Class: rviz/PointCloud2, Name: Heights, Enabled: true, Value: true, Topic: /heights, Alpha: 1,
-       Style: Boxes, Size (m): 0.03, Color Transformer: AxisColor, Axis: Z, Use Fixed Frame: true,
+       Style: Flat Squares, Size (m): 0.03, Color Transformer: AxisColor, Axis: Z, Use Fixed Frame: true,
        Autocompute Value Bounds: {Max Value: 5.6, Min Value: -4.4, Value: false}}
     - {Class: rviz/Temperature, Name: Effort, Enabled: true, Value: true, Topic: /effort, Alpha: 1,
        Style: Spheres, Size (m): 0.3, Color Transformer: Intensity, Channel Name: temperature,
@@ -73,14 +74,14 @@ Visualization Manager:
   Value: true
   Views:
     Current:
-      Class: rviz/Orbit
+      Class: rviz/ThirdPersonFollower
       Name: Current View
-      Target Frame: <Fixed Frame>
+      Target Frame: cart
       Distance: 5.2
-      Yaw: 0.7
+      Yaw: 0.3
       Pitch: 0.45
       Near Clip Distance: 0.01
-      Focal Point: {X: 0.92, Y: -0.18, Z: 0.6}
+      Focal Point: {X: 0, Y: 0, Z: 0}
       Focal Shape Fixed Size: false
       Focal Shape Size: 0.0001
     Saved: ~
@@ -188,9 +189,9 @@ class RVizScene : public testing::RVizProgram {
 
   static tf2_msgs::TFMessage WhereThingsStand() {
     tf2_msgs::TFMessage message;
-    message.transforms = {Standing("base", 1.3, 0.6, 0, -1.2),
-                          Standing("sensor", 0.2, -1.3, 1.2, 0.5),
-                          Standing("tool", 0.4, 1.2, 0.9, 0.5)};
+    message.transforms = {
+        Standing("base", 1.3, 0.6, 0, -1.2), Standing("sensor", 0.2, -1.3, 1.2, 0.5),
+        Standing("tool", 0.4, 1.2, 0.9, 0.5), Standing("cart", 1.266, 0.111, -0.337, 0.4)};
     return message;
   }
 

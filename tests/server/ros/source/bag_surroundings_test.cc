@@ -186,6 +186,27 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
 }
 
+TEST_F(BagSurroundingsTest, AreEarlierMessagesToo) {
+  const auto write = [](rosbag::Bag& bag) {
+    geometry_msgs::PointStamped point;
+    point.header.frame_id = "world";
+    for (int n = 0; n < 4; ++n) {
+      point.point.x = n;
+      bag.write("/goal", TimeOf(kBegin + n * kStep - 1), point);
+    }
+  };
+  GraphView view;
+  view.topics = {{"goal"}};
+  view.topics[0].style.earlier.keep = 3;
+  const Recorded kept = Read(write, view);
+  EXPECT_THAT(CountsOf(kept), ElementsAre(1, 2, 3, 3, 3, 3));
+  std::vector<double> places;
+  for (const auto& marker : kept.markers.back()) places.push_back(marker->pose.position.x());
+  EXPECT_THAT(places, ::testing::UnorderedElementsAre(1, 2, 3));
+  view.topics[0].style.earlier.decay_secs = 0.25;
+  EXPECT_THAT(CountsOf(Read(write, view)), ElementsAre(1, 2, 3, 3, 2, 1));
+}
+
 TEST_F(BagSurroundingsTest, AreAxesOfFramesThatAreNamed) {
   GraphView view;
   view.topics = {{"cart", {}, true}};
@@ -246,6 +267,23 @@ TEST_F(BagSurroundingsTest, FollowTheirFrames) {
   EXPECT_EQ(recorded.markers[0][1]->pose.position, Eigen::Vector3d(7, 0, 0));
   EXPECT_EQ(recorded.markers[2][0]->pose.position, Eigen::Vector3d(1.5, 0, 0));
   EXPECT_EQ(recorded.markers[5][0]->pose.position, Eigen::Vector3d(2.5, 0, 0));
+}
+
+TEST_F(BagSurroundingsTest, HaveTheFrameThatTheCameraGoesWith) {
+  GraphView view;
+  view.camera_frame = "cart";
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin + kStep - 1), FrameAt("cart", 1, kBegin + kStep - 1));
+        bag.write("/tf", TimeOf(kBegin + 4 * kStep - 1),
+                  FrameAt("cart", 2, kBegin + 4 * kStep - 1));
+      },
+      view);
+  ASSERT_EQ(recorded.camera_bases.size(), 6u);
+  EXPECT_FALSE(recorded.camera_bases[0]);
+  EXPECT_EQ(recorded.camera_bases[1].value().position, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(recorded.camera_bases[3].value().position, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(recorded.camera_bases[5].value().position, Eigen::Vector3d(2, 0, 0));
 }
 
 TEST_F(BagSurroundingsTest, InAFrameThatIsNotThereAreNamedOnce) {

@@ -1,0 +1,34 @@
+/// The frame of TF that a camera goes with. One thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "urdf/kinematics.h"
+
+namespace kinescope::ros_bridge {
+
+class CameraBase {
+ public:
+  /// Where the frame is now, in the frame of the scene.
+  using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
+
+  /// "": there is none.
+  explicit CameraBase(std::string frame) : frame_(std::move(frame)) {}
+
+  bool is_wanted() const { return !frame_.empty(); }
+  /// True if it has moved. Looks at most sixty times a second.
+  bool Update(std::int64_t now_nanos, const FindFrame& find);
+  /// Where it was last, as RViz has it; none before the first time.
+  const std::optional<urdf::Pose>& pose() const { return pose_; }
+
+ private:
+  const std::string frame_;
+  std::optional<urdf::Pose> pose_;
+  std::optional<std::int64_t> looked_nanos_;
+};
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,91 @@
+#include "server/ros/earlier_messages.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <vector>
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using ::testing::ElementsAre;
+using visualization_msgs::Marker;
+
+// Two markers of a pose at x, turned by `turn` about z.
+ShownMarkers At(double x, double turn = 0) {
+  ShownMarkers markers(2);
+  for (int i = 0; i < 2; ++i) {
+    markers[static_cast<std::size_t>(i)].id = i;
+    markers[static_cast<std::size_t>(i)].pose.position.x = x;
+    markers[static_cast<std::size_t>(i)].pose.orientation.z = std::sin(turn / 2);
+    markers[static_cast<std::size_t>(i)].pose.orientation.w = std::cos(turn / 2);
+  }
+  return markers;
+}
+
+std::vector<int> IdsOf(const ShownMarkers& markers) {
+  std::vector<int> ids;
+  for (const Marker& marker : markers) ids.push_back(marker.id);
+  return ids;
+}
+
+TEST(MessageShelf, HasPlaceForTheNewestMessageAlone) {
+  MessageShelf shelf;
+  for (int i = 0; i < 3; ++i) {
+    ShownMarkers markers = At(i);
+    EXPECT_TRUE(shelf.Place(4, {}, markers));
+    EXPECT_THAT(IdsOf(markers), ElementsAre(0, 1)) << "it replaces the one before";
+    EXPECT_TRUE(markers[0].lifetime.isZero());
+  }
+}
+
+TEST(MessageShelf, KeepsAsManyMessagesAsItShould) {
+  MessageShelf shelf;
+  EarlierMessages earlier;
+  earlier.keep = 3;
+  std::vector<int> first;
+  for (int i = 0; i < 4; ++i) {
+    ShownMarkers markers = At(i);
+    EXPECT_TRUE(shelf.Place(4, earlier, markers));
+    first.push_back(markers[0].id);
+    EXPECT_EQ(markers[1].id, markers[0].id + 1);
+  }
+  EXPECT_THAT(first, ElementsAre(0, 8, 16, 0)) << "the fourth replaces the first";
+  ShownMarkers other = At(0);
+  EXPECT_TRUE(shelf.Place(5, earlier, other));
+  EXPECT_EQ(other[0].id, 0) << "each topic has its own";
+}
+
+TEST(MessageShelf, LetsMessagesDecay) {
+  MessageShelf shelf;
+  EarlierMessages earlier;
+  earlier.decay_secs = 2.5;
+  for (int i = 0; i < 2; ++i) {
+    ShownMarkers markers = At(i);
+    EXPECT_TRUE(shelf.Place(4, earlier, markers));
+    EXPECT_EQ(markers[0].id, 8 * i);
+    EXPECT_EQ(markers[1].lifetime.toSec(), 2.5);
+  }
+}
+
+TEST(MessageShelf, LeavesOutPosesThatAreNearToTheOneBefore) {
+  MessageShelf shelf;
+  EarlierMessages earlier;
+  earlier.keep = 100;
+  earlier.step_m = 0.1;
+  earlier.turn_rad = 0.2;
+  const auto is_shown = [&](double x, double turn) {
+    ShownMarkers markers = At(x, turn);
+    return shelf.Place(4, earlier, markers);
+  };
+  EXPECT_TRUE(is_shown(0, 0));
+  EXPECT_FALSE(is_shown(0.09, 0.19));
+  EXPECT_TRUE(is_shown(0.11, 0)) << "far from the last that is shown";
+  EXPECT_FALSE(is_shown(0.19, 0));
+  EXPECT_TRUE(is_shown(0.11, 0.3)) << "turned";
+  ShownMarkers none;
+  EXPECT_TRUE(shelf.Place(4, earlier, none));
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
