@@ -3,7 +3,6 @@
 /// state's *form* (SameForm); of the rest, see WithoutUnkept().
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstddef>
 #include <type_traits>
 
