@@ -116,6 +116,7 @@ class Frames {
   bool Follow(const std::string& frame, const std::string& turn, bool has_camera) {
     options::Option* const option = list_.Find("camera_tf");
     if (has_camera || option == nullptr || option->channel != Channel::kDefault) return false;
+    if (!list_.HasEffect("camera_tf")) return false;
     const bool is_name = IsFrameName(frame), is_there = HasTopics(list_) || IsOfPerson(frame);
     if (is_name && is_there) {
       list_.Set(*option, option->name,

@@ -45,7 +45,7 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
     : topics_(Resolved(std::move(topics))),
       reference_frame_(std::move(reference_frame)),
       tf_(std::move(tf)),
-      camera_base_(std::move(camera_frame)) {
+      camera_frame_(std::move(camera_frame)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
     if (topic.is_frame) {
@@ -167,7 +167,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   if (changed) sink.OnMarkers(store_.markers());
   if (images_.TakeChanged()) sink.OnImages(images_.images());
   const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
-  if (camera_base_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_base_.pose());
+  if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
   for (const MarkerStore::Lost& lost : store_.TakeLost()) {
     const std::lock_guard<std::mutex> lock(mutex_);
     InputCounters& counters = counters_[topics_[lost.topic].name];

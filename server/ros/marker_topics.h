@@ -20,8 +20,8 @@
 #include "core/graph_view.h"
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
-#include "server/ros/camera_base.h"
 #include "server/ros/earlier_messages.h"
+#include "server/ros/followed_frame.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
@@ -72,7 +72,7 @@ class MarkerInbox {
   MarkerStore store_;
   MessageShelf shelf_;
   ImageBox images_;
-  CameraBase camera_base_;
+  FollowedFrame camera_frame_;
   std::map<int, Body> bodies_;             // by character
   visualization_msgs::Marker marker_;      // reused, keeps its memory
   visualization_msgs::MarkerArray array_;  // reused, keeps its memory

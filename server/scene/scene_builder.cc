@@ -273,8 +273,9 @@ void SceneBuilder::PlaceCamera(SceneState& scene) {
 
 // Once per program, although a clip is read twice.
 void SceneBuilder::WarnOfCamera() const {
+  constexpr char kFrameOfRviz[] = "map";  // in configurations, whether or not there is one
   static std::atomic<bool> is_told{false};
-  if (is_told.exchange(true)) return;
+  if (options_.camera_frame == kFrameOfRviz || is_told.exchange(true)) return;
   spdlog::warn(
       "no frame '{}' has come (--camera_tf), neither of TF nor of a person; the camera stands as "
       "if it were at the origin",

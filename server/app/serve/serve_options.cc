@@ -14,6 +14,7 @@
 #include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/open_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -196,10 +197,11 @@ void ServeOptions::List(options::OptionList& option) {
   option.Formerly("view_size");
   option("ros_view_rate_hz", ros_view_rate_hz, "highest frame rate of ~view");
   option.Formerly("view_rate_hz");
-  for (const char* name :
-       {"marker_topics", "ros_view", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
-    option.HasNoEffect(name, "with --ros=off",
-                       [this] { return *ros == ros_bridge::RosMode::kOff; });
+  const auto has_no_graph = [this] { return *ros == ros_bridge::RosMode::kOff; };
+  option.HasNoEffect("marker_topics", "with --ros=off, unless the source is a bag",
+                     [this, has_no_graph] { return has_no_graph() && !IsBag(*source); });
+  for (const char* name : {"ros_view", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+    option.HasNoEffect(name, "with --ros=off", has_no_graph);
   }
   for (const char* name : {"ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
     option.HasNoEffect(name, "with --ros_view=off", [this] { return !*ros_view; });
@@ -207,9 +209,9 @@ void ServeOptions::List(options::OptionList& option) {
   option.HasNoEffect("camera_tf", "with a named camera", [this] {
     return AreAllNamed(*camera) && (!ros_view_camera || AreAllNamed(*ros_view_camera));
   });
-  for (const char* name :
-       {"camera", "projection", "fov", "orbit", "follow", "fit", "picture_size", "picture_rate_hz",
-        "backend", "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+  for (const char* name : {"camera", "camera_tf", "projection", "fov", "orbit", "follow", "fit",
+                           "picture_size", "picture_rate_hz", "backend", "draw_limit_secs",
+                           "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
     option.HasNoEffect(name, "with --pictures=off", [this] { return !*pictures; });
   }
 }

@@ -50,7 +50,7 @@ bool IsWhole(const BagMessage& message) { return message.bytes.size() == message
 }  // namespace
 
 BagSurroundings::BagSurroundings(const GraphView& view)
-    : shown_topics_(ByName(view.topics)), camera_base_(view.camera_frame) {
+    : shown_topics_(ByName(view.topics)), camera_frame_(view.camera_frame) {
   for (const ShownTopic& topic : view.topics) {
     if (!topic.is_frame) continue;
     // A topic begins with a slash, this name does not.
@@ -171,7 +171,7 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
 }
 
 void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
-  const bool is_used = has_markers_ || !robots_.empty() || camera_base_.is_wanted() || is_static;
+  const bool is_used = has_markers_ || !robots_.empty() || camera_frame_.is_wanted() || is_static;
   if (is_used) tf_.Add(message, is_static);
 }
 
@@ -202,9 +202,9 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
   const bool has_new_images = images_.TakeChanged();
   const bool has_new_base =
-      camera_base_.Update(now_nanos, [&find](const std::string& frame) { return find(frame, 0); });
+      camera_frame_.Update(now_nanos, [&find](const std::string& frame) { return find(frame, 0); });
   if (has_moved || has_new_markers || has_new_images || has_new_base) {
-    RecordedSurroundings all{store_.markers(), {}, images_.images(), camera_base_.pose()};
+    RecordedSurroundings all{store_.markers(), {}, images_.images(), camera_frame_.pose()};
     for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
     sink.OnSurroundings(all);
   }

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/source.h"
-#include "server/ros/camera_base.h"
 #include "server/ros/earlier_messages.h"
+#include "server/ros/followed_frame.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
@@ -73,7 +73,7 @@ class BagSurroundings {
   MarkerStore store_;
   MessageShelf shelf_;
   ImageBox images_;
-  CameraBase camera_base_;
+  FollowedFrame camera_frame_;
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;  // their numbers
   std::set<std::string> lost_frames_;          // that were warned of

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "core/system/errors.h"
 #include "tests/server/options_testing.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
@@ -47,6 +50,27 @@ TEST(ServeConfig, HasNeitherPageNorPicturesForABridge) {
   ASSERT_TRUE(config.ros) << "without ROS in this build, the bridge reports that";
   EXPECT_FALSE(config.ros->with_view);
   EXPECT_TRUE(config.ros->shown.is_empty());
+}
+
+TEST(ServeConfig, TakesTheTopicsOfABagWithoutRos) {
+  const kinescope::testing::TempFolder folder;
+  const std::string bag = folder / "lab.bag";
+  std::ofstream(bag) << "#ROSBAG V2.0\n";
+  ServeOptions options;
+  options::OptionList list;
+  options.List(list);
+  const auto set = [&](const std::string& name, const std::string& text) {
+    list.Set(*list.Find(name), name, {text, ""}, options::Channel::kCommandLine);
+  };
+  set("ros", "off");
+  set("marker_topics", "/cloud");
+  EXPECT_FALSE(list.HasEffect("marker_topics"));
+  set("source", bag);
+  EXPECT_TRUE(list.HasEffect("marker_topics"));
+  set("camera_tf", "cart");
+  EXPECT_FALSE(list.HasEffect("camera_tf")) << "named cameras are of the people";
+  set("camera", "0,-4,1:0,0,1");
+  EXPECT_TRUE(list.HasEffect("camera_tf"));
 }
 
 TEST(ServeConfig, UdpPortReplacesTheSource) {

@@ -1,8 +1,8 @@
-#include "server/ros/camera_base.h"
+#include "server/ros/followed_frame.h"
 
 namespace kinescope::ros_bridge {
 
-bool CameraBase::Update(std::int64_t now_nanos, const FindFrame& find) {
+bool FollowedFrame::Update(std::int64_t now_nanos, const FindFrame& find) {
   constexpr std::int64_t kEveryNanos = 16'000'000;
   if (!is_wanted()) return false;
   // A recording that is played again begins earlier.

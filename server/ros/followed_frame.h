@@ -11,13 +11,13 @@
 
 namespace kinescope::ros_bridge {
 
-class CameraBase {
+class FollowedFrame {
  public:
   /// Where the frame is now, in the frame of the scene.
   using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
 
   /// "": there is none.
-  explicit CameraBase(std::string frame) : frame_(std::move(frame)) {}
+  explicit FollowedFrame(std::string frame) : frame_(std::move(frame)) {}
 
   bool is_wanted() const { return !frame_.empty(); }
   /// True if it has moved. Looks at most sixty times a second.
