@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using visualization_msgs::Marker;
 
 // Two markers of a pose at x, turned by `turn` about z.
-ShownMarkers At(double x, double turn = 0) {
+ShownMarkers MarkersAt(double x, double turn = 0) {
   ShownMarkers markers(2);
   for (int i = 0; i < 2; ++i) {
     markers[static_cast<std::size_t>(i)].id = i;
@@ -32,7 +32,7 @@ std::vector<int> IdsOf(const ShownMarkers& markers) {
 TEST(MessageShelf, HasPlaceForTheNewestMessageAlone) {
   MessageShelf shelf;
   for (int i = 0; i < 3; ++i) {
-    ShownMarkers markers = At(i);
+    ShownMarkers markers = MarkersAt(i);
     EXPECT_TRUE(shelf.Place(4, {}, markers));
     EXPECT_THAT(IdsOf(markers), ElementsAre(0, 1)) << "it replaces the one before";
     EXPECT_TRUE(markers[0].lifetime.isZero());
@@ -45,13 +45,13 @@ TEST(MessageShelf, KeepsAsManyMessagesAsItShould) {
   earlier.keep = 3;
   std::vector<int> first;
   for (int i = 0; i < 4; ++i) {
-    ShownMarkers markers = At(i);
+    ShownMarkers markers = MarkersAt(i);
     EXPECT_TRUE(shelf.Place(4, earlier, markers));
     first.push_back(markers[0].id);
     EXPECT_EQ(markers[1].id, markers[0].id + 1);
   }
   EXPECT_THAT(first, ElementsAre(0, 8, 16, 0)) << "the fourth replaces the first";
-  ShownMarkers other = At(0);
+  ShownMarkers other = MarkersAt(0);
   EXPECT_TRUE(shelf.Place(5, earlier, other));
   EXPECT_EQ(other[0].id, 0) << "each topic has its own";
 }
@@ -61,7 +61,7 @@ TEST(MessageShelf, LetsMessagesDecay) {
   EarlierMessages earlier;
   earlier.decay_secs = 2.5;
   for (int i = 0; i < 2; ++i) {
-    ShownMarkers markers = At(i);
+    ShownMarkers markers = MarkersAt(i);
     EXPECT_TRUE(shelf.Place(4, earlier, markers));
     EXPECT_EQ(markers[0].id, 8 * i);
     EXPECT_EQ(markers[1].lifetime.toSec(), 2.5);
@@ -75,7 +75,7 @@ TEST(MessageShelf, LeavesOutPosesThatAreNearToTheOneBefore) {
   earlier.step_m = 0.1;
   earlier.turn_rad = 0.2;
   const auto is_shown = [&](double x, double turn) {
-    ShownMarkers markers = At(x, turn);
+    ShownMarkers markers = MarkersAt(x, turn);
     return shelf.Place(4, earlier, markers);
   };
   EXPECT_TRUE(is_shown(0, 0));
