@@ -122,6 +122,10 @@ class Frames {
       list_.Set(*option, option->name,
                 {frame + turn, fmt::format("{}:{}: ", file_, picture_.target.line)},
                 Channel::kFile);
+      if (frame != kUsual) {
+        spdlog::info("{}:{}: the camera goes with the frame {}", file_, picture_.target.line,
+                     Quoted(frame));
+      }
       return true;
     }
     if (!picture_.target.frame.empty()) {
