@@ -224,7 +224,7 @@ class RvizReader {
     Set("figure", "urdf", line);
     std::string hidden = "shadows";  // RViz has none
     if (!has_model_) hidden += ",body";
-    if (!has_markers_) hidden += ",markers";
+    if (!has_markers_ && picture_.topics.empty()) hidden += ",markers";  // the way of all topics
     for (const char* part : kMarkerParts) {
       if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
     }

@@ -348,6 +348,16 @@ Visualization Manager:
   EXPECT_FALSE((*value)[1].style.wrench.hides_small);
 }
 
+TEST(RvizFile, ShowsTopicsAlsoWithoutADisplayOfMarkers) {
+  const auto hidden_of = [](const std::string& display) {
+    return SettingsOf(ReadText(WithDisplays("    - {" + display + "}\n"))).at("hide");
+  };
+  EXPECT_THAT(hidden_of("Class: rviz/PointCloud2, Enabled: true, Topic: /cloud"),
+              Not(HasSubstr("markers")));
+  EXPECT_THAT(hidden_of("Class: rviz/Axes, Enabled: true"), Not(HasSubstr("markers")));
+  EXPECT_THAT(hidden_of("Class: rviz/Grid, Enabled: true"), HasSubstr("markers"));
+}
+
 TEST(RvizFile, HasHowManyMessagesAreShown) {
   const RvizPicture picture = ReadText(R"(
 Visualization Manager:
