@@ -103,6 +103,7 @@ std::optional<std::string> FindDefect(const SceneMarker& marker) {
   if (static_cast<std::size_t>(marker.type) >= kNames.size()) {
     return "its type is " + std::to_string(static_cast<int>(marker.type)) + "; expected 0 to 11";
   }
+  if (marker.type != MarkerType::kText && !marker.text.empty()) return marker.text;
   const Eigen::Quaterniond& turn = marker.pose.orientation;
   if (!IsNear(marker.pose.position)) return "its position is not finite, or is beyond 100 km";
   if (!turn.coeffs().allFinite() || std::abs(turn.norm() - 1) > 1e-3) {

@@ -46,10 +46,10 @@ struct SceneMarker {
   Eigen::Vector4d color = Eigen::Vector4d::Ones();
   std::vector<Eigen::Vector3d> points;  // in the marker's frame
   std::vector<Eigen::Vector4d> colors;  // one per point, or empty: `color` for all
-  std::string text;
-  std::string mesh_uri;              // package://, file:// or an absolute path
-  bool mesh_has_own_colors = false;  // use colours of the file, where it has any, instead of
-                                     // `color`
+  std::string text;                     // of other types: why it cannot be rendered, or ""
+  std::string mesh_uri;                 // package://, file:// or an absolute path
+  bool mesh_has_own_colors = false;     // use colours of the file, where it has any, instead of
+                                        // `color`
 };
 
 /// All that stand in a scene at a time.

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace kinescope::history {
 namespace {
 
@@ -66,6 +69,31 @@ TEST(MarkerLog, ForgetsTheOldestAndWhatOnlyTheyHad) {
   log.ForgetBefore(53);
   EXPECT_LT(log.bytes(), 1000u) << "nothing of what is forgotten is counted";
   EXPECT_TRUE(log.Of(52).empty());
+}
+
+TEST(MarkerLog, ForgetsLargeMarkersFirstAndSaysSo) {
+  MarkerLog log(500'000);
+  const auto wall = MarkerWith(10), map = MarkerWith(5'000);
+  std::vector<MarkerList> lists;
+  for (std::uint64_t number = 1; number <= 50; ++number) {
+    const auto cloud = number % 3 == 1 ? MarkerWith(2'000) : lists.back()[2];  // in three lists
+    lists.push_back({wall, map, cloud, MarkerWith(1)});
+    Add(log, number, lists.back());
+    EXPECT_LE(log.bytes(), 500'000u);
+  }
+  EXPECT_EQ(log.Of(50), lists.back());
+  const MarkerList& first = log.Of(1);
+  ASSERT_EQ(first.size(), 4u);
+  EXPECT_EQ(first[0], wall);
+  EXPECT_EQ(first[1], map) << "it is still there, and takes no more room";
+  EXPECT_EQ(first[3], lists[0][3]);
+  ASSERT_TRUE(FindDefect(*first[2]));
+  EXPECT_NE(FindDefect(*first[2])->find("no longer kept"), std::string::npos);
+  EXPECT_EQ(first[2]->ns, lists[0][2]->ns);
+  EXPECT_EQ(log.Of(2)[2], first[2]) << "one word for all lists that had it";
+  Add(log, 51, {});
+  log.ForgetBefore(51);
+  EXPECT_LT(log.bytes(), 1000u);
 }
 
 TEST(MarkerLog, ForgetsListsOfStatesThatAreGone) {
