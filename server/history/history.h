@@ -27,7 +27,7 @@ struct HistoryLimits {
   std::size_t bytes = std::size_t{500} << 20;       // and the oldest of more than that
   std::size_t series_bytes = SeriesLimits().bytes;  // of the series, beside the states
   // Of external markers, beside the states: older states than these bytes reach have none.
-  std::size_t marker_bytes = std::size_t{64} << 20;
+  std::size_t marker_bytes = std::size_t{256} << 20;
 };
 
 /// States that are wanted: the newest one at `from_nanos`, as History::At(), and those after it up

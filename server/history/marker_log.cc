@@ -6,7 +6,7 @@ namespace kinescope::history {
 namespace {
 
 constexpr std::size_t kLargeBytes = 32 << 10;
-constexpr char kForgotten[] = "it is large, and no longer kept (the last 64 MB of markers are)";
+constexpr char kForgotten[] = "it is large, and no longer kept";
 
 std::size_t RoomOf(const SceneMarker& marker) {
   return sizeof marker + marker.points.size() * sizeof marker.points[0] +
