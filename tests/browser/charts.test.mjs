@@ -25,6 +25,11 @@ const isHigh = (r, g, b) => r > 150 && g < 60 && b < 60;
 const statusIs = (page, pattern) => page.waitForFunction(
   (source) => new RegExp(source).test(document.getElementById('status-word').textContent), pattern.source, LONG);
 
+/** The plots are drawn again each 150 ms, and a page that draws seldom has frames each 200 ms. */
+const isRedrawn = (page) => page.evaluate(() => new Promise((done) => {
+  requestAnimationFrame(() => requestAnimationFrame(done));
+}));
+
 /** Live, with `seconds` of history on the strip. */
 async function openLive(seconds, options) {
   const visit = await openPage(site.url, options);
@@ -180,6 +185,7 @@ test('the plots show loads, compression, margin, rate and losses of the person o
 test('a click on a plot goes to that moment, and hovering shows the values of another one', async () => {
   const { page, close } = await openPlots();
   await page.click('#plot-window >> text=10 s');
+  await isRedrawn(page);  // a click means a moment of the time that the plot shows
   const over = await page.locator('[data-plot="loads"] .u-over').boundingBox();
   await page.mouse.click(over.x + over.width * 0.9, over.y + 20);
   await statusIs(page, /^Behind −[01]\.\d s$/);
