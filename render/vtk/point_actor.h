@@ -2,6 +2,7 @@
 /// that they mean what a legend or another program says they mean.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "render/shape/marker_shapes.h"
