@@ -456,7 +456,7 @@ function showReadings() {
   loadAlarms(now);
   alarms.setConnected(status.level !== 'disconnected', now, shown.newest?.madeMicros ?? 0);
   alarmPanel.update(now);
-  scene?.updateSurroundings(shown.details.surroundings, shown.isNewest ? null : shown.state?.stateNumber ?? null, now);
+  scene?.updateSurroundings(shown.details.surroundings, formerNow()?.state ?? null, now);
   cameraImages.update(shown.isNewest ? shown.details.images : [], now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';

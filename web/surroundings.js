@@ -88,7 +88,6 @@ export class Surroundings {
       const answer = await request(`api/v1/surroundings.glb?${former === null ? `t=${revision}` : `state=${former}`}`);
       if (answer.status === BEING_MADE) {
         this.#askAgainAt = performance.now() + BEING_MADE_MILLIS;
-        this.#isLoading = false;
         return;
       }
       const bytes = await answer.arrayBuffer();
@@ -97,8 +96,9 @@ export class Surroundings {
       if (this.#asked === revision) this.#show(revision, scene, readSurroundings(scene.userData, 'extras').problems);
     } catch {
       this.problems = ['Could not load the external markers and robots'];
+    } finally {
+      this.#isLoading = false;
     }
-    this.#isLoading = false;
   }
 
   /** @param {number|null} revision

@@ -1,7 +1,5 @@
 #include "server/ros/earlier_messages.h"
 
-#include <algorithm>
-
 namespace kinescope::ros_bridge {
 namespace {
 

@@ -11,7 +11,6 @@
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
-#include "core/system/starts_with.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
@@ -253,16 +252,11 @@ void SceneBuilder::PlaceCamera(SceneState& scene) {
   const std::string& frame = options_.camera_frame;
   if (frame.empty()) return;
   for (const PersonState& person : scene.people) {
-    const std::string prefix = person.model->human.model_name + "_";
-    if (!StartsWith(frame, prefix)) continue;
-    const auto* const segment =
-        std::find_if(urdf::kSegments.begin(), urdf::kSegments.end(), [&](const auto& each) {
-          return frame.compare(prefix.size(), std::string::npos, each.link_name) == 0;
-        });
-    if (segment == urdf::kSegments.end()) continue;
-    const auto link = static_cast<std::size_t>(segment - urdf::kSegments.begin());
-    scene.camera_base = current_.camera_base = person.links[link];
-    return;
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      if (urdf::LinkName(person.model->human.model_name, segment) != frame) continue;
+      scene.camera_base = current_.camera_base = person.links[urdf::At(segment)];
+      return;
+    }
   }
   // Frames of TF may come some time after the first sample.
   constexpr double kPatienceSecs = 5;
