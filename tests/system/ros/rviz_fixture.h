@@ -26,7 +26,7 @@ class RVizProgram : public RosProgram {
     RosProgram::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
     screen_ = std::make_unique<Process>(
-        std::vector<std::string>{KINESCOPE_XVFB, "-displayfd", "1", "-screen", "0",
+        std::vector<std::string>{KINESCOPE_XVFB, "-displayfd", "1", "-noreset", "-screen", "0",
                                  fmt::format("{}x{}x24", kWidth, kHeight)});
     const auto display = screen_->ReadLine(kPatience);
     ASSERT_TRUE(display) << "Xvfb does not start";
@@ -42,11 +42,11 @@ class RVizProgram : public RosProgram {
   }
 
   /// With the configuration in view.rviz; its log is in rviz.log.
-  std::unique_ptr<Process> StartRViz() const {
+  std::unique_ptr<Process> StartRViz(const std::string& window = "--fullscreen") const {
     return std::make_unique<Process>(std::vector<std::string>{
         "/bin/bash", "-c",
-        fmt::format("exec '{}' -d '{}' --fullscreen --splash-screen '' __name:=rviz >'{}' 2>&1",
-                    KINESCOPE_RVIZ, (folder_ / "view.rviz").string(),
+        fmt::format("exec '{}' -d '{}' {} --splash-screen '' __name:=rviz >'{}' 2>&1",
+                    KINESCOPE_RVIZ, (folder_ / "view.rviz").string(), window,
                     (folder_ / "rviz.log").string())});
   }
 

@@ -319,7 +319,7 @@ TEST_F(RViz, DoesNotAskForTheViewUnlessToldTo) {
                                    (folder_ / "view.rviz").string() + "'"});
       return written.exit_code == 0;
     }));
-    return StartRViz();
+    return StartRViz("");  // a full screen hides the panel of the view, which switches it off
   };
   {
     const auto rviz = start("");
@@ -327,7 +327,8 @@ TEST_F(RViz, DoesNotAskForTheViewUnlessToldTo) {
     EXPECT_EQ(listeners("/kinescope/view/image_raw"), 0);
   }
   const auto rviz = start("--view");
-  EXPECT_TRUE(Spin([&] { return listeners("/kinescope/view/image_raw") > 0; }));
+  EXPECT_TRUE(Spin([&] { return listeners("/kinescope/view/image_raw") > 0; }))
+      << testing::ReadFile(folder_ / "rviz.log");
 }
 
 TEST_F(RViz, ShowsTheSamePublishedHumanModels) {
