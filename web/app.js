@@ -40,6 +40,8 @@ import { mountTransport } from './transport.js';
 import { mountViewKeys } from './view_keys.js';
 
 const READINGS_MILLIS = 150;  // faster changes cannot be read
+const PAUSE_MILLIS = 700;  // readings that come as late: the page itself was busy, or asleep
+const CATCH_UP_MILLIS = 2000;  // after that; the server sends newer states once it hears that those before were taken
 const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
@@ -48,6 +50,7 @@ const SETTLED_MILLIS = 700;  // longer than any part of the page takes to show w
 
 const elements = findElements(document);
 
+let readingsAt = 0, drawnAt = 0, awakeSince = 0;  // browser clock
 let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Model|null} */
 let model = null;
@@ -253,6 +256,7 @@ function showNotice(text) {
 /** @param {number} now */
 function onFrame(now) {
   requestAnimationFrame(onFrame);
+  drawnAt = now;
   const isNewSample = takeNewest(now);
   shown.ask(now);
   const { newest } = shown;
@@ -312,6 +316,7 @@ function onTimeChanged() {
  *  @returns {number|null} of the newest sample; null: not known */
 function ageMillisAt(now) {
   const state = shown.newest, serverNow = connection.clock.at(now);
+  if (now - awakeSince < CATCH_UP_MILLIS) return null;
   if (state && state.arrivalMicros > 0 && serverNow !== null) return serverNow - state.arrivalMicros / 1000;
   return state && state.liveness === 'stale' ? now - stateChangedAt : null;
 }
@@ -321,7 +326,7 @@ function statusNow() {
   return statusOf({
     connected: connection.connected,
     everConnected: connection.everConnected,
-    silentMillis: connection.silentMillis(now),
+    silentMillis: Math.min(connection.silentMillis(now), now - awakeSince),  // not while the page could not hear
     liveness: state?.liveness ?? null,
     ageMillis: ageMillisAt(now),
     ...stream.lossAt(now),
@@ -441,7 +446,10 @@ function showCameras(answer) {
 
 function showReadings() {
   const now = performance.now();
-  if (document.hidden) takeNewest(now);  // a hidden page has no animation frames, but its title still shows the status
+  if (!document.hidden && now - readingsAt > PAUSE_MILLIS) awakeSince = now;  // a hidden page hears, and reads seldom
+  readingsAt = now;
+  // A hidden page has no animation frames, but its title still shows the status.
+  if (document.hidden || now - drawnAt > PAUSE_MILLIS) takeNewest(now);
   const status = statusNow();
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);

@@ -33,7 +33,8 @@ export const BEHIND_MILLIS = 250;
 export function statusOf(now) {
   const stream = streamStatusOf(now), isFresh = stream.level === 'live' || stream.level === 'losing';
   const isBehind = now.behindMillis !== undefined && now.behindMillis !== null;
-  if (now.recording && (isFresh || isBehind)) return { ...recordingStatusOf(now, stream), isFresh };
+  const hasEnded = stream.level === 'stale' && (now.recording?.ended_micros ?? null) !== null;
+  if (now.recording && (isFresh || isBehind || hasEnded)) return { ...recordingStatusOf(now, stream), isFresh };
   if (!isBehind || stream.level === 'wait') return { ...stream, isFresh };
   const trouble = isFresh ? goneText(now) : `Live stream: ${stream.word}. ${stream.banner}`;
   const note = stream.level === 'live' ? 'Esc returns to live' : `live stream: ${stream.word}`;
@@ -54,7 +55,7 @@ function recordingStatusOf(now, stream) {
   const isOver = recording?.ended_micros !== null && now.connected && now.silentMillis <= SILENCE_MILLIS;
   const isGood = stream.level === 'live' || stream.level === 'losing';
   const trouble = isGood || isOver ? goneText(now) : `${stream.word}. ${stream.banner}`;
-  const note = stream.level === 'losing' ? stream.word : isOver && now.behindMillis === 0 ? 'ended'
+  const note = stream.level === 'losing' ? stream.word : isOver && (now.behindMillis ?? 0) === 0 ? 'ended'
     : now.behindMillis === undefined || now.behindMillis === null ? 'plays' : `${lag(now.behindMillis)} from its newest sample`;
   return { level: 'recording', word, note, banner: trouble };
 }

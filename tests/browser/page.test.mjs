@@ -155,6 +155,25 @@ test('the status follows a stream that stops, is missing and starts again', asyn
   await close();
 });
 
+test('a page that was busy itself takes what has come before it says how the stream is', async () => {
+  const { page, close } = await openLive();
+  await page.evaluate(() => {
+    window.words = [];
+    const word = document.getElementById('status-word');
+    new MutationObserver(() => window.words.push(word.textContent)).observe(word, { childList: true, characterData: true, subtree: true });
+  });
+  for (let i = 0; i < 5; ++i) {
+    const before = await page.evaluate(() => {
+      const until = performance.now() + 2500;
+      while (performance.now() < until) ;
+      return document.getElementById('sample').textContent;
+    });
+    await page.waitForFunction((sample) => document.getElementById('sample').textContent !== sample, before, LONG);
+  }
+  assert.deepEqual(await page.evaluate(() => window.words), []);
+  await close();
+});
+
 test('the page detects a server that ends or does not respond', async () => {
   const mortal = await startFixture();
   const { page, close } = await openPage(mortal.url);

@@ -46,6 +46,10 @@ test('a recording is never live: the status says where in it the viewer is', () 
   const over = { ...plays, recording: { ...recording, ended_micros: 9e6 }, behindMillis: 0, liveness: 'stale' };
   assert.deepEqual(statusOf(over), { level: 'recording', word: 'Recording 0:42.0 of 3:10', note: 'ended', banner: '', isFresh: false });
   assert.match(statusOf({ ...over, connected: false }).banner, /^Disconnected\. No connection/);
+  // A busy page hears of the end before it has turned to it.
+  assert.deepEqual(statusOf({ ...over, behindMillis: null }), statusOf(over));
+  assert.equal(statusOf({ ...over, behindMillis: null, connected: false }).level, 'disconnected');
+  assert.equal(statusOf({ ...plays, liveness: 'stale' }).level, 'stale', 'it stands still, and has not ended');
 });
 
 test('losing data is a state of its own, whose figure the second line explains', () => {
