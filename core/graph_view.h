@@ -17,6 +17,7 @@ struct GraphRobot {
   std::string parameter;  // of the parameter server, with the URDF; "": it is in `robot`
   std::string tf_prefix;  // its frames are "<tf_prefix>/<link>"; "": as its links
   RobotState robot = {};  // without a parameter: model, meshes and name; else empty
+  double opacity = 1;     // 0..1, of a robot with a parameter
 };
 
 /// Colours of points by a number that each of them has: RViz's Intensity and AxisColor.
@@ -29,11 +30,26 @@ struct PointScale {
   bool is_inverted = false;        // the rainbow
 };
 
-/// Arrows of a wrench.
+/// Arrows of a wrench, a twist or an acceleration: force and torque, or linear and angular.
 struct WrenchArrows {
-  double force_m = 0.001, torque_m = 0.01;  // their lengths for 1 N and for 1 N·m; 0: none
+  std::optional<double> force_m, torque_m;  // their lengths for 1 N and for 1 N·m; 0: none
   std::optional<Rgb> torque_color;
   bool hides_small = true;  // with a width: arrows whose shaft is shorter than that
+};
+
+/// The ellipsoid of a position's standard deviation.
+struct CovarianceStyle {
+  double scale = 0;  // 0: none
+  std::optional<Rgb> color;
+  double alpha = 0.3;
+};
+
+/// Every frame of TF: axes with the length `size_m`, a name in `color` and an arrow to its parent.
+struct FramesStyle {
+  bool has_axes = true, has_names = true, has_arrows = true;
+  std::optional<double> name_m;  // height of the names
+  double timeout_secs = 15;      // a frame that is not heard of for as long is not shown
+  std::vector<std::string> hidden;
 };
 
 inline constexpr std::size_t kMostKeptMessages = 1000;
@@ -66,8 +82,12 @@ struct ShownStyle {
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
   WrenchArrows wrench = {};
+  FramesStyle frames = {};
+  CovarianceStyle covariance = {};
   EarlierMessages earlier = {};
 };
+
+inline constexpr char kEveryFrame[] = "*";
 
 /// As many may be named.
 inline constexpr std::size_t kMostShownTopics = 64;
@@ -76,6 +96,7 @@ struct ShownTopic {
   std::string name;
   ShownStyle style = {};
   bool is_frame = false;  // no topic: a frame of TF whose axes are shown; "": that of the scene
+  bool is_every_frame() const { return is_frame && name == kEveryFrame; }
 };
 
 struct GraphView {

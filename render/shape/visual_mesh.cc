@@ -109,6 +109,16 @@ void VisualReader::AddMesh(const urdf::Visual& visual, int part, VisualMesh& to)
 }
 
 void VisualReader::Add(const urdf::Visual& visual, int part, VisualMesh& to) {
+  const std::size_t first = to.mesh.positions.size();
+  AddOpaque(visual, part, to);
+  if (visual.opacity >= 1) return;
+  for (std::size_t i = first; i < to.mesh.colors.size(); ++i) {
+    to.mesh.colors[i].w() *= static_cast<float>(visual.opacity);
+  }
+}
+
+// But for what its colours say.
+void VisualReader::AddOpaque(const urdf::Visual& visual, int part, VisualMesh& to) {
   const urdf::Geometry& shape = visual.geometry;
   const std::size_t first = to.mesh.positions.size();
   const Eigen::Affine3d place(visual.link_from_visual.matrix());

@@ -28,8 +28,10 @@ struct VisualMesh {
   std::vector<std::string> problems;      // one line per mesh that cannot be shown
 };
 
-/// 0..1; 1 where the URDF names no colour.
-inline double OpacityOf(const urdf::Visual& visual) { return visual.rgba ? visual.rgba->w() : 1; }
+/// 0..1; of the URDF's colour, 1 where it names none.
+inline double OpacityOf(const urdf::Visual& visual) {
+  return visual.opacity * (visual.rgba ? visual.rgba->w() : 1);
+}
 
 /// Whether a link has a place in a picture: a finite one that is not absurdly far away.
 inline bool CanBeDrawn(const Eigen::Isometry3d& world_from_link) {
@@ -58,6 +60,7 @@ class VisualReader {
     std::string fault;  // "": no error
   };
   const File& Read(const std::string& uri);
+  void AddOpaque(const urdf::Visual& visual, int part, VisualMesh& to);
   urdf::Mesh ReadOfPerson(const std::string& name) const;
   /// Why the mesh cannot be shown; "" if it can.
   std::string FaultOf(const File& file, const urdf::Geometry& shape,

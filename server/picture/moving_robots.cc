@@ -12,9 +12,10 @@ std::vector<GraphRobot> ReadMovingRobots(const std::vector<RobotPlace>& places) 
   std::vector<GraphRobot> robots;
   for (const RobotPlace& place : places) {
     if (!place.tf_prefix) continue;
-    GraphRobot robot{place.parameter, *place.tf_prefix, {}};
+    GraphRobot robot{place.parameter, *place.tf_prefix, {}, place.opacity};
     if (!place.file.empty()) {
       robot.robot = ReadRobot(place.file, {});
+      SetOpacity(robot.robot, place.opacity);
       for (const std::string& note : robot.robot.model->notes) {
         spdlog::warn("{}: {}", place.file, note);
       }

@@ -14,9 +14,11 @@ namespace {
 constexpr double kApart = 1.2;  // m, between people and robots without a given place
 
 // The root over the place, the lowest point on z = 0.
-RobotState Stand(const std::string& file, const RobotPlace::Place& place,
+RobotState Stand(const RobotPlace& wanted, const RobotPlace::Place& place,
                  render::Renderer& renderer) {
+  const std::string& file = wanted.file;
   RobotState robot = ReadRobot(file, {});
+  SetOpacity(robot, wanted.opacity);
   for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", file, note);
   Eigen::Isometry3d world_from_root(Eigen::AngleAxisd(place.yaw, Eigen::Vector3d::UnitZ()));
   world_from_root.pretranslate(Eigen::Vector3d(place.x, place.y, 0));
@@ -38,7 +40,7 @@ std::vector<RobotState> ReadStandingRobots(const std::vector<RobotPlace>& places
     if (places[i].tf_prefix) continue;
     if (!renderer) renderer = StartRenderer(backend);
     const RobotPlace::Place beside{0, kApart * static_cast<double>(i + 1), 0};
-    robots.push_back(Stand(places[i].file, places[i].place.value_or(beside), *renderer));
+    robots.push_back(Stand(places[i], places[i].place.value_or(beside), *renderer));
   }
   return robots;
 }

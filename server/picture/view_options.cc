@@ -297,9 +297,18 @@ void RobotsValue::Parse(const std::string& text) {
 namespace {
 
 // A name may hold an @ of its own: what follows the last one is a place when it looks like one.
-std::optional<RobotPlace> ParseRobot(const std::string& text) {
-  constexpr std::string_view kRos = "ros:", kTf = "tf";
+std::optional<RobotPlace> ParseRobot(const std::string& whole) {
+  constexpr std::string_view kRos = "ros:", kTf = "tf", kAlpha = "(alpha=";
   RobotPlace robot;
+  std::string text = whole;
+  const std::size_t style = text.rfind(kAlpha);
+  if (style != std::string::npos && text.back() == ')') {
+    const std::size_t begin = style + kAlpha.size();
+    const auto opacity = options::ParseNumber(text.substr(begin, text.size() - 1 - begin));
+    if (!opacity || *opacity < 0 || *opacity > 1) return std::nullopt;
+    robot.opacity = *opacity;
+    text.erase(style);
+  }
   robot.file = text;
   const auto parts = options::SplitAtLast(text, '@');
   const std::string place = parts ? parts->second : "";
@@ -348,7 +357,7 @@ std::string RobotsValue::Expected() const {
   return fmt::format(
       "FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m and degrees, within {}); moved by TF: "
       "FILE.urdf@tf, ros:PARAMETER, with a prefix of its frames FILE.urdf@tf:PREFIX, "
-      "ros:PARAMETER@tf:PREFIX",
+      "ros:PARAMETER@tf:PREFIX; any of these translucent: FILE.urdf@tf(alpha=0.5)",
       kFarthestRobot);
 }
 

@@ -118,6 +118,7 @@ struct RobotPlace {
   };
   std::optional<Place> place;            // none, and no prefix: beside the people
   std::optional<std::string> tf_prefix;  // of its frames in TF; none: it stands
+  double opacity = 1;                    // 0..1
 };
 
 inline constexpr char kRobotHelp[] =
@@ -125,7 +126,8 @@ inline constexpr char kRobotHelp[] =
     "repeated";
 
 /// FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m, degrees): it stands. FILE.urdf@tf or
-/// FILE.urdf@tf:PREFIX, ros:PARAMETER or ros:PARAMETER@tf:PREFIX: TF moves it. Once per robot.
+/// FILE.urdf@tf:PREFIX, ros:PARAMETER or ros:PARAMETER@tf:PREFIX: TF moves it. "(alpha=0.5)" after
+/// any of these makes it translucent. Once per robot.
 class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
  public:
   RobotsValue() : ValueOf({}) {}

@@ -64,12 +64,14 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   }
   if (!urdf) return;  // what is shown stays, as in RViz
   if (urdf::IsWrittenByKinescope(*urdf)) {
-    spdlog::info("{} is a person of Kinescope, who is shown as one", ParameterOf(i));
+    spdlog::info("{} is a person of Kinescope, who is shown as one{}", ParameterOf(i),
+                 wanted_[i].opacity < 1 ? ", not translucent" : "");
     return Refuse(i, "of Kinescope", "a person of Kinescope: the scene has them already");
   }
   RobotState robot;
   try {
-    robot.model = std::make_shared<const urdf::RobotModel>(urdf::ParseUrdf(*urdf));
+    robot.model = std::make_shared<const urdf::RobotModel>(
+        urdf::Translucent(urdf::ParseUrdf(*urdf), wanted_[i].opacity));
   } catch (const urdf::UrdfError& error) {
     spdlog::warn("{}: {}; the robot is not shown", ParameterOf(i), error.what());
     return Refuse(i, "not a URDF", error.what());

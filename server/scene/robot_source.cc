@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <variant>
@@ -86,6 +87,11 @@ std::vector<fs::path> FilesOfRobot(const fs::path& urdf) {
   } catch (const std::runtime_error&) {  // drawing it will say why
   }
   return {files.begin(), files.end()};
+}
+
+void SetOpacity(RobotState& robot, double opacity) {
+  if (opacity >= 1) return;
+  robot.model = std::make_shared<const urdf::RobotModel>(urdf::Translucent(*robot.model, opacity));
 }
 
 RobotState Lifted(RobotState robot, double by) {

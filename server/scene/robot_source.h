@@ -25,6 +25,9 @@ RobotState ReadRobot(const std::filesystem::path& path,
 /// out. Never throws.
 std::vector<std::filesystem::path> FilesOfRobot(const std::filesystem::path& urdf);
 
+/// Its model becomes as opaque as before times `opacity`, 0..1.
+void SetOpacity(RobotState& robot, double opacity);
+
 /// `robot`, higher by `by`, m.
 RobotState Lifted(RobotState robot, double by);
 

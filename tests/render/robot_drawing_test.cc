@@ -235,6 +235,27 @@ TEST_F(RobotDrawing, BlendsTranslucentVisualsWithTheirBackground) {
   EXPECT_LT(with_pane("0")[2], 60) << "alpha 0 is not there at all";
 }
 
+// As a plan beside the robot that follows it. Colours of a file become translucent, too.
+TEST_F(RobotDrawing, BlendsARobotThatIsTranslucentAsAWhole) {
+  Write("red.dae", kinescope::testing::BoxDae());
+  const RobotState wall = Robot(
+      "<robot name='r'><link name='a'><visual><origin xyz='-1 0 1'/><geometry><box "
+      "size='0.1 2 2'/></geometry><material name='b'><color rgba='0.05 0.05 0.9 1'/></material>"
+      "</visual></link></robot>");
+  const auto seen = [&](double opacity) {
+    RobotState box =
+        Visual("<origin xyz='-0.5 -1 0'/><geometry><mesh filename='red.dae'/></geometry>");
+    box.model = std::make_shared<const urdf::RobotModel>(urdf::Translucent(*box.model, opacity));
+    return ColorAt(renderer_->Render(SceneOf({wall, box}), Front(), spec_), Front(), {0.5, 0, 1});
+  };
+  const auto solid = seen(1), half = seen(0.5), none = seen(0);
+  EXPECT_GT(solid[0], 2 * solid[2]);
+  EXPECT_GT(none[2], 2 * none[0]) << "what is behind it";
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(half[k], (solid[k] + none[k]) / 2, 40) << k;
+  }
+}
+
 TEST_F(RobotDrawing, OmitsLinksWithNonFinitePoses) {
   RobotState robot = Visual("<geometry><box size='1 1 1'/></geometry>");
   for (const double bad :

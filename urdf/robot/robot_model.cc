@@ -222,6 +222,13 @@ RobotJoint ToJoint(const ::urdf::Joint& from, std::vector<std::string>& notes) {
 
 }  // namespace
 
+RobotModel Translucent(RobotModel model, double opacity) {
+  for (Link& link : model.links) {
+    for (Visual& visual : link.visuals) visual.opacity *= opacity;
+  }
+  return model;
+}
+
 RobotModel ParseUrdf(const std::string& xml) {
   RefuseUnreadable(ReadOutline(xml));
   const Collector collector;

@@ -24,6 +24,7 @@ struct Visual {
   Eigen::Isometry3d link_from_visual = Eigen::Isometry3d::Identity();
   Geometry geometry;
   std::optional<Eigen::Vector4d> rgba;  // 0..1, sRGB; absent: the URDF gives no colour
+  double opacity = 1;                   // 0..1, a factor for all of its colours
   std::string name;                     // "" if it has none
   std::string material;                 // name of the material; "" if it has none
 };
@@ -90,6 +91,9 @@ struct RobotModel {
   std::vector<std::string> notes;  // parts of the URDF that are not used: textures, floating and
                                    // planar joints
 };
+
+/// `model`, its visuals as opaque as before times `opacity` (0..1).
+RobotModel Translucent(RobotModel model, double opacity);
 
 /// Limits of a robot, so that it can be rendered and no number overflows. A URDF beyond them is
 /// rejected.

@@ -154,9 +154,9 @@ TEST(ViewOptions, RejectUnknownNamesWithTheNearestOne) {
     EXPECT_THAT(Error("ghost", bad), HasSubstr("SOURCE@SECS")) << bad;
   }
   EXPECT_THAT(Error("ghost_opacity", "2"), HasSubstr("from 0 to 1"));
-  for (const char* bad :
-       {"a.urdf@1", "a.urdf@1,2,3,4", "a.urdf@1,y", "a.urdf@1001,0", "@1,2", "@tf",
-        "a.urdf@tf:", "a.urdf@tf:/lab", "a.urdf@tf:a b", "ros:", "ros:a b", "ros:/arm@1,2"}) {
+  for (const char* bad : {"a.urdf@1", "a.urdf@1,2,3,4", "a.urdf@1,y", "a.urdf@1001,0", "@1,2",
+                          "@tf", "a.urdf@tf:", "a.urdf@tf:/lab", "a.urdf@tf:a b", "ros:", "ros:a b",
+                          "ros:/arm@1,2", "a.urdf(alpha=2)", "a.urdf(alpha=)", "(alpha=0.5)"}) {
     EXPECT_THAT(Error("robot", bad), HasSubstr("FILE.urdf@X,Y")) << bad;
   }
   EXPECT_THAT(Error("camera", "front,top"), HasSubstr("at most 1 camera"));
@@ -166,9 +166,10 @@ TEST(ViewOptions, RejectUnknownNamesWithTheNearestOne) {
 TEST(ViewOptions, TellRobotsThatStandFromThoseThatTfMoves) {
   ViewOptions options;
   options.robot.ParseAll({"a.urdf", "b@tf.urdf@1,2", "c.urdf@tf", "d.urdf@tf:lab/arm",
-                          "ros:/arm/robot_description@tf:arm", "ros:robot_description"});
+                          "ros:/arm/robot_description@tf:arm", "ros:robot_description",
+                          "e(1).urdf@tf:arm(alpha=0.25)"});
   const std::vector<RobotPlace>& robots = *options.robot;
-  ASSERT_EQ(robots.size(), 6u);
+  ASSERT_EQ(robots.size(), 7u);
   EXPECT_FALSE(robots[0].tf_prefix || robots[1].tf_prefix);
   EXPECT_EQ(robots[1].file, "b@tf.urdf");
   EXPECT_EQ(robots[2].file, "c.urdf");
@@ -178,12 +179,16 @@ TEST(ViewOptions, TellRobotsThatStandFromThoseThatTfMoves) {
   EXPECT_EQ(robots[4].parameter, "/arm/robot_description");
   EXPECT_EQ(robots[4].tf_prefix, "arm");
   EXPECT_EQ(robots[5].tf_prefix, "");
+  EXPECT_EQ(robots[5].opacity, 1);
+  EXPECT_EQ(robots[6].file, "e(1).urdf");
+  EXPECT_EQ(robots[6].tf_prefix, "arm");
+  EXPECT_EQ(robots[6].opacity, 0.25);
   EXPECT_THAT(options.robot.WithoutMoving().ToTexts(), ElementsAre("a.urdf", "b@tf.urdf@1,2"));
   options.robot.SetFolder("/lab");
-  EXPECT_THAT(
-      options.robot.ToTexts(),
-      ElementsAre("/lab/a.urdf", "/lab/b@tf.urdf@1,2", "/lab/c.urdf@tf", "/lab/d.urdf@tf:lab/arm",
-                  "ros:/arm/robot_description@tf:arm", "ros:robot_description"));
+  EXPECT_THAT(options.robot.ToTexts(),
+              ElementsAre("/lab/a.urdf", "/lab/b@tf.urdf@1,2", "/lab/c.urdf@tf",
+                          "/lab/d.urdf@tf:lab/arm", "ros:/arm/robot_description@tf:arm",
+                          "ros:robot_description", "/lab/e(1).urdf@tf:arm(alpha=0.25)"));
 }
 
 TEST(ViewOptions, ListTheFilesThatDetermineThePicture) {
