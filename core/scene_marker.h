@@ -52,6 +52,9 @@ struct SceneMarker {
                                         // `color`
 };
 
+/// Of the axes, arrows and names of all frames of TF, which need no legend.
+inline constexpr char kNamespaceOfFrames[] = "tf";
+
 /// All that stand in a scene at a time.
 using MarkerList = std::vector<std::shared_ptr<const SceneMarker>>;
 

@@ -149,7 +149,8 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
   robots.AppendTo(rows, "robots");
   for (const auto& marker : state.markers) {
     if (!look.Shows(ScenePart::kMarkers)) break;
-    if (marker->type == MarkerType::kText) continue;  // says itself what it is
+    // They say themselves what they are.
+    if (marker->type == MarkerType::kText || marker->ns == kNamespaceOfFrames) continue;
     const Eigen::Vector4d& color = marker->colors.empty() ? marker->color : marker->colors.front();
     markers.Add({{{color[0], color[1], color[2]}, 1},
                  kBoxRadius,

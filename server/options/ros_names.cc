@@ -41,9 +41,10 @@ bool TakeScale(const std::string& key, const std::string& text, PointScale& scal
   return bound && std::abs(*bound) <= kLargestBound;
 }
 
-// "force=0.002", "torque=0", "torque_color=#255fff", "small=shown" of a wrench.
+// "force=0.002", "torque=0", "torque_color=#255fff", "small=shown" of a wrench; "linear=1",
+// "angular=0", "angular_color=#255fff" of a twist or an acceleration.
 bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& arrows) {
-  if (key == "torque_color") {
+  if (key == "torque_color" || key == "angular_color") {
     arrows.torque_color = ColorFromHex(text);
     return arrows.torque_color.has_value();
   }
@@ -53,7 +54,7 @@ bool TakeArrows(const std::string& key, const std::string& text, WrenchArrows& a
   }
   const auto metres = options::ParseNumber(text);
   if (!metres) return false;
-  (key == "force" ? arrows.force_m : arrows.torque_m) = *metres;
+  (key == "force" || key == "linear" ? arrows.force_m : arrows.torque_m) = *metres;
   return *metres >= 0 && *metres <= kLongestArrow;
 }
 
@@ -73,6 +74,45 @@ bool TakeEarlier(const std::string& key, const std::string& text, EarlierMessage
   }
   (key == "step" ? earlier.step_m : earlier.turn_rad) = *number;
   return *number <= kLargestStep;
+}
+
+// "covariance=1", "covariance_color=#cc33cc", "covariance_alpha=0.3" of a pose.
+bool TakeCovariance(const std::string& key, const std::string& text, CovarianceStyle& covariance) {
+  if (key == "covariance_color") {
+    covariance.color = ColorFromHex(text);
+    return covariance.color.has_value();
+  }
+  const bool is_alpha = key == "covariance_alpha";
+  const auto number = options::ParseNumber(text);
+  if (number) (is_alpha ? covariance.alpha : covariance.scale) = *number;
+  return number && *number >= 0 && *number <= (is_alpha ? 1 : kLargestCovarianceScale);
+}
+
+// "names=off", "text=0.1", "timeout=5", "without=left|right" of all frames.
+bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& frames) {
+  if (key == "without") {
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+      const std::size_t end = std::min(text.find('|', begin), text.size());
+      frames.hidden.push_back(text.substr(begin, end - begin));
+      if (!IsFrameName(frames.hidden.back())) return false;
+      begin = end + 1;
+    }
+    return true;
+  }
+  if (key == "text") {
+    frames.name_m = options::ParseNumber(text);
+    return frames.name_m && *frames.name_m >= kSmallestShown && *frames.name_m <= kLargestShown;
+  }
+  if (key == "timeout") {
+    const auto secs = options::ParseNumber(text);
+    if (secs) frames.timeout_secs = *secs;
+    return secs && *secs >= 1 && *secs <= kLongestFrameTimeout;
+  }
+  (key == "names"  ? frames.has_names
+   : key == "axes" ? frames.has_axes
+                   : frames.has_arrows) = text == "on";
+  return text == "on" || text == "off";
 }
 
 bool TakeShape(const std::string& text, ShownStyle& style) {
@@ -100,8 +140,15 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
-  if (is_one_of({"force", "torque", "torque_color", "small"})) {
+  if (is_one_of(
+          {"force", "torque", "torque_color", "linear", "angular", "angular_color", "small"})) {
     return TakeArrows(key, text, style.wrench);
+  }
+  if (is_one_of({"covariance", "covariance_color", "covariance_alpha"})) {
+    return TakeCovariance(key, text, style.covariance);
+  }
+  if (is_one_of({"axes", "names", "arrows", "text", "timeout", "without"})) {
+    return TakeFrames(key, text, style.frames);
   }
   if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
   if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
@@ -130,8 +177,9 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
   topic.name = text.substr(0, open);
   topic.is_frame = StartsWith(topic.name, kAxesOfFrame);
   if (topic.is_frame) topic.name.erase(0, std::strlen(kAxesOfFrame));
-  const bool is_good =
-      topic.is_frame ? topic.name.empty() || IsFrameName(topic.name) : IsTopicName(topic.name);
+  const bool is_good = topic.is_frame
+                           ? topic.name.empty() || topic.is_every_frame() || IsFrameName(topic.name)
+                           : IsTopicName(topic.name);
   if (!is_good) return std::nullopt;
   if (open == std::string::npos) return topic;
   if (text.back() != ')') return std::nullopt;
@@ -165,6 +213,9 @@ void ShownTopicsValue::Parse(const std::string& text) {
   for (const std::string& item : options::SplitItems(text)) {
     std::optional<ShownTopic> topic = ParseTopic(item);
     if (!topic || topics.size() == kMostShownTopics) RefuseText();
+    const bool has_frames = std::any_of(
+        topics.begin(), topics.end(), [](const ShownTopic& each) { return each.is_every_frame(); });
+    if (topic->is_every_frame() && has_frames) RefuseText();
     topics.push_back(std::move(*topic));
   }
   value_ = std::move(topics);

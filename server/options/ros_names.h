@@ -14,6 +14,8 @@ inline constexpr double kLargestStep = 1000;                         // of Earli
 inline constexpr double kLargestBound = 1e12;                        // of PointScale
 inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
 inline constexpr double kLongestArrow = 1000;                        // m for 1 N or 1 N·m
+inline constexpr double kLongestFrameTimeout = 1e6;                  // s
+inline constexpr double kLargestCovarianceScale = 1000;
 
 /// A topic or a parameter: it begins with a letter, / or ~.
 [[nodiscard]] bool IsTopicName(const std::string& text);
@@ -21,7 +23,7 @@ inline constexpr double kLongestArrow = 1000;                        // m for 1 
 inline constexpr char kTopicNameExpected[] = "the name of a topic, such as /human/tf";
 inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
-/// Before the name of a frame among topics: its axes are shown.
+/// Before the name of a frame among topics: its axes are shown; before kEveryFrame: all frames.
 inline constexpr char kAxesOfFrame[] = "tf:";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
@@ -30,7 +32,7 @@ inline constexpr char kAxesOfFrame[] = "tf:";
 /// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)"; points by
 /// a number of theirs: "/scan(by=z,from=0,to=2,low=#000000,high=#ffffff)",
 /// "/c(by=ring,rainbow=inverted)"; arrows of a wrench: "/push(force=0.002,torque=0,width=0.3)";
-/// axes: "tf:base_link(size=0.5)".
+/// axes: "tf:base_link(size=0.5)", "tf:*(names=off,arrows=off,timeout=5,without=left|right)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

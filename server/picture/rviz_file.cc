@@ -128,17 +128,16 @@ class RvizReader {
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
       ReadTopic(display, called, "Marker Topic", "");
-    } else if (kind == "rviz/Image") {
+    } else if (kind == "rviz/Image" || kind == "rviz/Camera") {
       ReadTopic(display, called, "Image Topic", "");
+      if (kind == "rviz/Camera")
+        Remark(display, called + ": its picture is drawn without the scene");
     } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/Axes") {
       ReadAxes(display, called);
     } else if (kind == "rviz/TF") {
-      has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
-      if (BoolOf(display, "Show Names", true) || BoolOf(display, "Show Arrows", true)) {
-        Remark(display, called + ": names and arrows are not drawn, axes those of people's links");
-      }
+      ReadFrames(display, called);
     } else {
       Remark(display, called + " is not drawn");
     }
@@ -151,17 +150,16 @@ class RvizReader {
     }
     const std::string name = TextOf(display, "Robot Description", "robot_description"),
                       prefix = TextOf(display, "TF Prefix", "");
+    const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
     if (IsTopicName(name) && (prefix.empty() || IsFrameName(prefix))) {
-      picture_.robots.push_back({"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix),
-                                 Shown(called), LineOf(display)});
+      const std::string style = alpha < 1 ? "(alpha=" + options::NumberText(alpha) + ")" : "";
+      picture_.robots.push_back({"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix) + style,
+                                 Shown(called), LineOf(display), alpha < 1});
     } else {
       Remark(display, fmt::format("{} is not drawn: {} with the prefix {} is no name in ROS",
                                   called, Quoted(name), Quoted(prefix)));
     }
     has_model_ = true;
-    if (rviz::NumberOf(display, "Alpha", 1, 0, 1) < 1) {
-      Remark(display, called + ": Alpha is not taken, bodies are opaque");
-    }
   }
 
   // What the display has otherwise is named.
@@ -210,6 +208,48 @@ class RvizReader {
         {kAxesOfFrame + frame, style + ")", Shown(called), false, LineOf(display)});
   }
 
+  void ReadFrames(const YAML::Node& display, const std::string& called) {
+    constexpr double kLength = 0.2;  // m, of an axis of the scale 1
+    const auto number = [&](const char* property, double usual, double least, double most) {
+      return rviz::NumberOf(display, property, usual, least, most);
+    };
+    const double length =
+        kLength * number("Marker Scale", 1, 2 * kSmallestShown / kLength, kLargestShown / kLength);
+    std::string style = "(color=#ffffff,size=" + options::NumberText(length) +
+                        ",text=" + options::NumberText(length / 2);
+    const double alpha = number("Marker Alpha", 1, 0, 1);
+    if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
+    const auto switch_off = [&](const char* property, const char* key) {
+      if (!BoolOf(display, property, true)) style += std::string(",") + key + "=off";
+    };
+    switch_off("Show Axes", "axes");
+    switch_off("Show Names", "names");
+    switch_off("Show Arrows", "arrows");
+    style +=
+        ",timeout=" + options::NumberText(number("Frame Timeout", 15, 1, kLongestFrameTimeout));
+    picture_.topics.push_back({std::string(kAxesOfFrame) + kEveryFrame,
+                               style + HiddenFrames(display, called) + ")", Shown(called), false,
+                               LineOf(display), true});
+    has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
+  }
+
+  // ",without=a|b"
+  std::string HiddenFrames(const YAML::Node& display, const std::string& called) {
+    const YAML::Node frames = Member(display, "Frames");
+    std::string names;
+    if (!frames.IsDefined() || !frames.IsMap()) return names;
+    for (const auto& frame : frames) {
+      if (!frame.first.IsScalar() || BoolOf(frame.second, "Value", true)) continue;
+      const std::string name = frame.first.as<std::string>();
+      if (IsFrameName(name)) {
+        names += (names.empty() ? ",without=" : "|") + name;
+      } else {
+        Remark(display, called + ": the frame " + Quoted(name) + " is not left out");
+      }
+    }
+    return names;
+  }
+
   // Parts are drawn that some display shows.
   void ReadMarkers(const YAML::Node& display) {
     has_markers_ = true;
@@ -229,7 +269,7 @@ class RvizReader {
       if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
     }
     Set("hide", hidden, line);
-    if (has_frames_) Set("show", "link_frames", line);
+    if (has_frames_) Set("show", "link_frames", line);  // of a source without TF
   }
 
   void ReadView(const YAML::Node& manager) {

@@ -29,6 +29,7 @@ struct RvizPicture {
     std::string display;  // "rviz/Pose 'Goal'"
     bool is_marker = false;
     int line = 1;
+    bool is_every_frame = false;  // no topic: all frames of TF
   };
   std::vector<Topic> topics;
   /// A model whose description a ROS graph has; also that of a person.
@@ -36,6 +37,7 @@ struct RvizPicture {
     std::string option;   // a value of --robot
     std::string display;  // "rviz/RobotModel 'Arm'"
     int line = 1;
+    bool is_translucent = false;
   };
   std::vector<Robot> robots;
   std::vector<std::string>

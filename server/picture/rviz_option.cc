@@ -48,6 +48,10 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
     return;
   }
   // The first model is that of the people.
+  if (robots.front().is_translucent) {
+    spdlog::warn("{}:{}: {}: Alpha is not taken, people are opaque", file, robots.front().line,
+                 robots.front().display);
+  }
   for (std::size_t i = 1; i < robots.size(); ++i) {
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
                  robots[i].line, robots[i].display);
@@ -63,7 +67,12 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
-      if (!topic.is_marker) {
+      if (topic.is_every_frame) {
+        spdlog::warn(
+            "{}{}: of frames, only the axes of people's links are drawn: the source has no "
+            "TF (a bag has, and serve with ROS)",
+            place, topic.display);
+      } else if (!topic.is_marker) {
         spdlog::warn("{}{} is not drawn: the source has no topics (a bag has, and serve with ROS)",
                      place, topic.display);
       }
@@ -176,6 +185,7 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   const bool has_camera = camera != nullptr && camera->channel != Channel::kDefault;
   std::string missing;
   for (const RvizPicture::Setting& setting : picture.settings) {
+    if (setting.option == "show" && HasTopics(list)) continue;  // the topics have the frames
     options::Option* const option = list.Find(setting.option);
     if (option == nullptr) {
       missing += (missing.empty() ? "" : ", ") + setting.option;

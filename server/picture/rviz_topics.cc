@@ -44,8 +44,22 @@ constexpr ShownProperties kTopicDisplays[] = {
     OfPoints("rviz/Illuminance"),
     OfPoints("rviz/FluidPressure"),
     OfPoints("rviz/RelativeHumidity"),
-    {"rviz/WrenchStamped", "Force Color"}};
-constexpr const char* kWrenchDisplay = "rviz/WrenchStamped";
+    {"rviz/Range", "Color"},
+    {"rviz/WrenchStamped", "Force Color"},
+    {"rviz/TwistStamped", "Linear Color"},
+    {"rviz/AccelStamped", "Linear Color"}};
+
+// Displays of two vectors, and what they call them.
+struct ArrowProperties {
+  const char* kind;
+  const char* linear_scale;
+  const char* angular_scale;
+  const char* angular_color;
+};
+constexpr ArrowProperties kArrowDisplays[] = {
+    {"rviz/WrenchStamped", "Force Arrow Scale", "Torque Arrow Scale", "Torque Color"},
+    {"rviz/TwistStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"},
+    {"rviz/AccelStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"}};
 
 // Of any of them: what makes a difference if it is not as usual.
 struct Untaken {
@@ -81,7 +95,10 @@ class StyleReader {
     }
     AddShapeAndSize();
     if (kind_ == "rviz/Map") AddScheme();
-    if (kind_ == kWrenchDisplay) AddArrows();
+    for (const ArrowProperties& arrows : kArrowDisplays) {
+      if (kind_ == arrows.kind) AddArrows(arrows);
+    }
+    AddCovariance();
     AddEarlier();
     NameUntaken();
     if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
@@ -188,20 +205,38 @@ class StyleReader {
     }
   }
 
-  void AddArrows() {
+  void AddArrows(const ArrowProperties& has) {
     // The file has the scale of a shaft; its head is 0.3 of it.
     constexpr double kWholeArrow = 1.3;
     const auto number = [&](const char* property, double usual, double least, double most) {
       return NumberOf(display_, property, usual, least, most);
     };
-    const double force = number("Force Arrow Scale", 2, 0, kLongestArrow / kWholeArrow);
-    const double torque = number("Torque Arrow Scale", 2, 0, kLongestArrow / kWholeArrow);
+    const double force = number(has.linear_scale, 2, 0, kLongestArrow / kWholeArrow);
+    const double torque = number(has.angular_scale, 2, 0, kLongestArrow / kWholeArrow);
     Add("force=" + options::NumberText(kWholeArrow * force));
     Add("torque=" + options::NumberText(kWholeArrow * torque));
     Add("width=" + options::NumberText(number("Arrow Width", 0.5, kSmallestShown, kLargestShown)));
-    AddColor("torque_color=", "Torque Color", {0.8, 0.8, 0.2});
+    AddColor("torque_color=", has.angular_color, {0.8, 0.8, 0.2});
     if (!BoolOf(display_, "Hide Small Values", true)) Add("small=shown");
-    if (torque > 0) Remark("the ring around the arrow of a torque is not drawn");
+  }
+
+  void AddCovariance() {
+    const YAML::Node covariance = Member(display_, "Covariance");
+    if (!covariance.IsDefined() || !BoolOf(covariance, "Value", true)) return;
+    const YAML::Node position = Member(covariance, "Position");
+    if (BoolOf(position, "Value", true)) {
+      const auto add_number = [&](const char* key, const char* property, double usual,
+                                  double most) {
+        Add(key + options::NumberText(NumberOf(position, property, usual, 0, most)));
+      };
+      add_number("covariance=", "Scale", 1, kLargestCovarianceScale);
+      add_number("covariance_alpha=", "Alpha", 0.3, 1);
+      const auto rgb = ColorOf(position, "Color", {0.8, 0.2, 0.8});
+      if (rgb) Add("covariance_color=" + ToHex(*rgb));
+    }
+    if (BoolOf(Member(covariance, "Orientation"), "Value", true)) {
+      Remark("the covariance of the orientation is not drawn");
+    }
   }
 
   void AddScheme() {
@@ -239,10 +274,6 @@ class StyleReader {
       if (value != each.usual) {
         Remark(std::string(each.property) + " '" + value + "': " + each.otherwise);
       }
-    }
-    const YAML::Node covariance = Member(display_, "Covariance");
-    if (covariance.IsDefined() && BoolOf(covariance, "Value", true)) {
-      Remark("Covariance is not drawn");
     }
   }
 

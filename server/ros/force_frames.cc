@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/system/starts_with.h"
 #include "server/ros/stamp.h"
@@ -50,6 +51,26 @@ int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
   return static_cast<int>(std::count_if(
       message.transforms.begin(), message.transforms.end(),
       [&](const geometry_msgs::TransformStamped& each) { return !Take(each, is_static); }));
+}
+
+std::vector<TreeFrame> TfTree::frames() const {
+  std::vector<std::string> names;
+  buffer_._getFrameStrings(names);
+  std::vector<TreeFrame> all;
+  for (std::string& name : names) {
+    TreeFrame frame;
+    if (buffer_._getParent(name, ros::Time(0), frame.parent)) {
+      ros::Time newest;
+      buffer_._getLatestCommonTime(buffer_._lookupFrameNumber(frame.parent),
+                                   buffer_._lookupFrameNumber(name), newest, nullptr);
+      frame.newest_nanos = ToNanos(newest);
+    } else {
+      frame.parent.clear();
+    }
+    frame.name = std::move(name);
+    all.push_back(std::move(frame));
+  }
+  return all;
 }
 
 std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::string& frame,

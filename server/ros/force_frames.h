@@ -9,11 +9,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/scene_state.h"
 #include "server/ros/names.h"
 
 namespace kinescope::ros_bridge {
+
+/// A frame and what it hangs on, by their names.
+struct TreeFrame {
+  std::string name;
+  std::string parent;             // "": it hangs on none
+  std::int64_t newest_nanos = 0;  // stamp of its newest transform; 0: it always holds
+};
 
 /// Frames published by other nodes, kept for ten seconds. Kinescope's own frames are not included:
 /// they are known from the newest sample, and tf2 would ignore them after a recording starts over.
@@ -26,6 +34,8 @@ class TfTree {
 
   /// Whether `frame` is among those of other nodes.
   bool Knows(const std::string& frame) const { return buffer_._frameExists(frame); }
+
+  std::vector<TreeFrame> frames() const;
 
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
   std::optional<urdf::Pose> Find(const std::string& target, const std::string& frame,

@@ -10,6 +10,7 @@
 #include "core/system/errors.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
+#include "urdf/segments.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -18,6 +19,9 @@ namespace {
 // processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
 constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
+
+// The page has new markers ten times a second, and the history keeps each list of them.
+constexpr std::int64_t kFramesEveryNanos = 50'000'000;
 
 std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   for (ShownTopic& topic : topics) {
@@ -48,7 +52,9 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
       camera_frame_(std::move(camera_frame)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
-    if (topic.is_frame) {
+    if (topic.is_every_frame()) {
+      frames_.emplace(topic.style, kFramesEveryNanos);
+    } else if (topic.is_frame) {
       AddAxes(store_, i, topic);
     } else {
       counters_[topic.name];  // shown even without messages
@@ -159,12 +165,37 @@ std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
   return std::nullopt;
 }
 
+bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
+  if (!frames_) return false;
+  const auto list = [this] {
+    std::vector<TreeFrame> all = tf_->frames();
+    all.push_back({reference_frame_, "", 0});
+    for (const auto& [character, body] : bodies_) {
+      for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+        all.push_back(
+            {urdf::LinkName(body.model, segment), reference_frame_, body.now.stamp_nanos});
+      }
+    }
+    return all;
+  };
+  const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
+  const bool has_changed = frames_->Update(monotonic_nanos, list, find_now);
+  if (std::string lost = frames_->TakeLost(); !lost.empty()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    InputCounters& counters = counters_[kNamespaceOfFrames];
+    ++counters.refused["unknown frame"];
+    counters.last_problem = std::move(lost);
+  }
+  return has_changed;
+}
+
 void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
-  const bool changed =
+  bool changed =
       store_.Update(monotonic_nanos, [this](const std::string& frame, std::int64_t stamp_nanos) {
         return Find(frame, stamp_nanos);
       });
-  if (changed) sink.OnMarkers(store_.markers());
+  changed = UpdateFrames(monotonic_nanos) || changed;
+  if (changed) sink.OnMarkers(Together(store_.markers(), frames_));
   if (images_.TakeChanged()) sink.OnImages(images_.images());
   const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
   if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());

@@ -26,6 +26,7 @@
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/shown_frames.h"
 #include "server/ros/shown_messages.h"
 
 namespace kinescope::ros_bridge {
@@ -63,6 +64,7 @@ class MarkerInbox {
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
+  bool UpdateFrames(std::int64_t monotonic_nanos);
 
   const std::vector<ShownTopic> topics_;
   const std::string reference_frame_;
@@ -73,6 +75,7 @@ class MarkerInbox {
   MessageShelf shelf_;
   ImageBox images_;
   FollowedFrame camera_frame_;
+  std::optional<ShownFrames> frames_;
   std::map<int, Body> bodies_;             // by character
   visualization_msgs::Marker marker_;      // reused, keeps its memory
   visualization_msgs::MarkerArray array_;  // reused, keeps its memory

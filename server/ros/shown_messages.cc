@@ -3,10 +3,9 @@
 #include <ros/message_traits.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <array>
-#include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/scene_marker.h"
@@ -43,19 +42,22 @@ ShownType TypeOf() {
           OfBytes<Message>};
 }
 
-const std::array<ShownType, 17>& ShownTypes() {
-  static const std::array<ShownType, 17> kTypes = {
+const std::array<ShownType, 20>& ShownTypes() {
+  static const std::array<ShownType, 20> kTypes = {
       TypeOf<geometry_msgs::PointStamped>(),
       TypeOf<geometry_msgs::PoseStamped>(),
       TypeOf<geometry_msgs::PoseWithCovarianceStamped>(),
       TypeOf<geometry_msgs::PoseArray>(),
       TypeOf<geometry_msgs::PolygonStamped>(),
       TypeOf<geometry_msgs::WrenchStamped>(),
+      TypeOf<geometry_msgs::TwistStamped>(),
+      TypeOf<geometry_msgs::AccelStamped>(),
       TypeOf<nav_msgs::Path>(),
       TypeOf<nav_msgs::Odometry>(),
       TypeOf<nav_msgs::GridCells>(),
       TypeOf<nav_msgs::OccupancyGrid>(),
       TypeOf<sensor_msgs::LaserScan>(),
+      TypeOf<sensor_msgs::Range>(),
       TypeOf<sensor_msgs::PointCloud>(),
       TypeOf<sensor_msgs::PointCloud2>(),
       TypeOf<sensor_msgs::Temperature>(),
@@ -129,37 +131,50 @@ ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose&
   return {arrow};
 }
 
-// RViz's arrow: a shaft of the length 1 and a head of 0.3.
-constexpr double kWholeArrow = 1.3;
-
-// Its length is not 0.
-Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
-               const Eigen::Vector3d& to, const std::optional<double>& width) {
-  Marker arrow = MarkerOf(header, id, Marker::ARROW, color);
-  arrow.points = {PointAt(0, 0, 0), PointAt(to.x(), to.y(), to.z())};
-  if (width) {
-    arrow.scale.x = 0.1 * *width;
-    arrow.scale.y = 0.2 * *width;
-    arrow.scale.z = to.norm() * (1 - 1 / kWholeArrow);
-    return arrow;
+// The ellipsoid of one standard deviation, of the position alone; flat if z has none, as in RViz.
+Marker EllipsoidOf(const std_msgs::Header& header, const geometry_msgs::PoseWithCovariance& pose,
+                   const CovarianceStyle& style) {
+  constexpr double kThin = 0.001;  // of the others
+  constexpr std::size_t kRow = 6;
+  Eigen::Matrix3d covariance;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      covariance(static_cast<int>(i), static_cast<int>(k)) =
+          (pose.covariance[kRow * i + k] + pose.covariance[kRow * k + i]) / 2;
+    }
   }
-  arrow.scale.x = 0.018;  // diameters, as arrows of ground reaction forces (force_arrows)
-  arrow.scale.y = 0.048;
-  arrow.scale.z = std::min(0.06, 0.6 * to.norm());
-  return arrow;
+  if (!covariance.allFinite()) return Without(header, 1);
+  const bool is_flat = covariance(2, 2) <= 0;
+  if (is_flat) covariance.row(2).setZero();
+  if (is_flat) covariance.col(2).setZero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::Vector3d diameters = 2 * style.scale * solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (!(diameters.maxCoeff() > 0)) return Without(header, 1);
+  diameters = diameters.cwiseMax(kThin * diameters.maxCoeff());
+  Eigen::Matrix3d turn = solver.eigenvectors();
+  if (turn.determinant() < 0) turn.col(0) *= -1;
+  const Eigen::Quaterniond q(turn);
+  Marker ellipsoid = MarkerOf(header, 1, Marker::SPHERE, Color(204, 51, 204));
+  ShownStyle colors;
+  colors.color = style.color;
+  colors.alpha = style.alpha;
+  ellipsoid.color = In(colors, ellipsoid.color);
+  ellipsoid.pose.position = pose.pose.position;
+  ellipsoid.pose.orientation.w = q.w();
+  ellipsoid.pose.orientation.x = q.x();
+  ellipsoid.pose.orientation.y = q.y();
+  ellipsoid.pose.orientation.z = q.z();
+  ellipsoid.scale.x = diameters.x();
+  ellipsoid.scale.y = diameters.y();
+  ellipsoid.scale.z = diameters.z();
+  return ellipsoid;
 }
 
-// @param least  N or N·m, of an arrow without a width
-Marker ArrowOrNone(const std_msgs::Header& header, int id, const ShownStyle& style,
-                   const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3& vector,
-                   double metres, double least) {
-  const Eigen::Vector3d value(vector.x, vector.y, vector.z), to = metres * value;
-  const bool is_small = style.width_m
-                            ? style.wrench.hides_small && to.norm() <= kWholeArrow * *style.width_m
-                            : value.norm() < least;
-  // What is not finite goes on, so that it is named as for other markers.
-  if (is_small || to.norm() == 0) return Without(header, id);
-  return ArrowOf(header, id, In(style, color), to, style.width_m);
+ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::PoseWithCovariance& pose,
+                      const ShownStyle& style) {
+  ShownMarkers markers = ShowPose(header, pose.pose, style);
+  if (style.covariance.scale > 0) markers.push_back(EllipsoidOf(header, pose, style.covariance));
+  return markers;
 }
 
 }  // namespace
@@ -177,11 +192,11 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message, const S
 
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseWithCovarianceStamped& message,
                               const ShownStyle& style) {
-  return ShowPose(message.header, message.pose.pose, style);
+  return ShowPose(message.header, message.pose, style);
 }
 
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Odometry& message, const ShownStyle& style) {
-  return ShowPose(message.header, message.pose.pose, style);
+  return ShowPose(message.header, message.pose, style);
 }
 
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const ShownStyle& style) {
@@ -243,18 +258,6 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PolygonStamped& message,
     add(corners.front());
   }
   return OneOrNone(std::move(line));
-}
-
-Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
-                              const ShownStyle& style) {
-  constexpr double kLeastForce = 5, kLeastTorque = 0.5;  // N, N·m
-  const WrenchArrows& arrows = style.wrench;
-  ShownStyle of_torque = style;
-  if (arrows.torque_color) of_torque.color = arrows.torque_color;
-  return ShownMarkers{ArrowOrNone(message.header, 0, style, Color(204, 51, 51),
-                                  message.wrench.force, arrows.force_m, kLeastForce),
-                      ArrowOrNone(message.header, 1, of_torque, Color(204, 204, 51),
-                                  message.wrench.torque, arrows.torque_m, kLeastTorque)};
 }
 
 Marker AxesOf(const std::string& frame, const ShownStyle& style) {

@@ -4,11 +4,13 @@
 /// functions say otherwise. Pure functions, any thread.
 #pragma once
 
+#include <geometry_msgs/AccelStamped.h>
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PolygonStamped.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/GridCells.h>
 #include <nav_msgs/OccupancyGrid.h>
@@ -19,6 +21,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/Range.h>
 #include <sensor_msgs/RelativeHumidity.h>
 #include <sensor_msgs/Temperature.h>
 #include <visualization_msgs/Marker.h>
@@ -44,7 +47,7 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PointStamped& message,
 /// An arrow of 1.3 m along x, or axes of 1 m.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseStamped& message,
                               const ShownStyle& style = {});
-/// The same; the covariance is not shown.
+/// The same; with a covariance, the ellipsoid of one standard deviation of the position.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseWithCovarianceStamped& message,
                               const ShownStyle& style = {});
 /// The same, of the newest pose alone.
@@ -65,9 +68,19 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::GridCells& message, const ShownSty
 Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const ShownStyle& style = {});
 /// An arrow of 1 m for 1000 N, as those of ground reaction forces, and one of 1 m for 100 N·m,
 /// unless the style says otherwise; RViz's 2 m for 1 N are made for fingertips. Below 5 N or 0.5
-/// N·m: none. With a width: shaft and head as RViz has them. A size is not taken.
+/// N·m: none. With a width: shaft, head and the ring about a torque as RViz has them. A size is not
+/// taken.
 Taken<ShownMarkers> ToMarkers(const geometry_msgs::WrenchStamped& message,
                               const ShownStyle& style = {});
+/// The same, of 1 m for 1 m/s and for 1 rad/s; below 0.01: none.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::TwistStamped& message,
+                              const ShownStyle& style = {});
+/// The same, of 1 m for 10 m/s² and for 10 rad/s²; below 0.1: none.
+Taken<ShownMarkers> ToMarkers(const geometry_msgs::AccelStamped& message,
+                              const ShownStyle& style = {});
+/// A translucent cone along x, as long as the range; none for a range that the sensor does not
+/// have.
+Taken<ShownMarkers> ToMarkers(const sensor_msgs::Range& message, const ShownStyle& style = {});
 /// Points of 1 cm, coloured by intensity where the scan has it. By an axis of the scene only once
 /// they have a place in it (marker_input.h). Of more than the style has, every n-th is shown: a
 /// page gets 20 bytes for each, up to ten times a second.

@@ -350,20 +350,22 @@ void WriteYaml(const fs::path& options, const fs::path& keys) {
 
 void WriteRviz(const fs::path& folder) {
   const std::string begin = "Visualization Manager:\n";
-  Write(folder / "every_kind",
-        begin +
-            "  Global Options: {Background Color: 177; 255; 255, Fixed Frame: /odom, Default "
-            "Light: 0}\n"
-            "  Displays:\n"
-            "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
-            "    - {Class: rviz/TF, Enabled: true, Name: TF}\n"
-            "    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.5}\n"
-            "    - {Class: rviz/RobotModel, Enabled: true, Visual Enabled: false}\n"
-            "    - {Class: rviz/MarkerArray, Enabled: true, Namespaces: {com: false}}\n"
-            "    - Class: rviz/Group\n"
-            "      Enabled: true\n"
-            "      Displays: [{Class: rviz/Path, Value: true, Name: \"a\\e[31m\"}]\n"
-            "Panels: [{Class: rviz/Time, SyncMode: 1}]\n");
+  Write(
+      folder / "every_kind",
+      begin +
+          "  Global Options: {Background Color: 177; 255; 255, Fixed Frame: /odom, Default "
+          "Light: 0}\n"
+          "  Displays:\n"
+          "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
+          "    - {Class: rviz/TF, Enabled: true, Name: TF}\n"
+          "    - {Class: rviz/TF, Enabled: true, Show Names: false, Frames: {a: {Value: false}}}\n"
+          "    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.5}\n"
+          "    - {Class: rviz/RobotModel, Enabled: true, Visual Enabled: false}\n"
+          "    - {Class: rviz/MarkerArray, Enabled: true, Namespaces: {com: false}}\n"
+          "    - Class: rviz/Group\n"
+          "      Enabled: true\n"
+          "      Displays: [{Class: rviz/Path, Value: true, Name: \"a\\e[31m\"}]\n"
+          "Panels: [{Class: rviz/Time, SyncMode: 1}]\n");
   for (const char* view :
        {"rviz/Orbit", "rviz/XYOrbit", "rviz/FPS", "rviz/TopDownOrtho", "plugin/Own"}) {
     Write(folder / ("view_" + fs::path(view).filename().string()),
@@ -482,8 +484,16 @@ void WriteMaps(const fs::path& folder) {
                               .bytes());
 }
 
-// Temperature, illuminance, pressure, humidity: a value and its variance.
+// Temperature, illuminance, pressure, humidity: a value and its variance. Arrows and a range.
 void WriteValues(const fs::path& folder) {
+  const std::vector<double> arrows = {0.5, 0, 0, 0, 0.2, 2};
+  Write(folder / "twist", RosBytes('\31').Header("cart").Reals(arrows).bytes());
+  Write(folder / "accel", RosBytes('\32').Header("cart").Reals(arrows).bytes());
+  Write(folder / "range", RosBytes('\33')
+                              .Header("cart")
+                              .Byte(0)
+                              .Reals<float>({0.5F, 0.1F, 4, 2})  // field of view, bounds, range
+                              .bytes());
   const char* const names[] = {"temperature", "illuminance", "fluid_pressure", "humidity"};
   for (int i = 0; i < 4; ++i) {
     Write(

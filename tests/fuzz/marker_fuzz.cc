@@ -69,7 +69,10 @@ void CheckShown(const std::vector<std::uint8_t>& bytes) {
   scaled.scale = PointScale{};
   scaled.scale->by = "ring";
   scaled.has_spheres = true;
-  for (const ShownStyle& style : {ShownStyle{}, scaled}) {
+  ShownStyle of_rviz;
+  of_rviz.width_m = 0.3;
+  of_rviz.covariance.scale = 1;
+  for (const ShownStyle& style : {ShownStyle{}, scaled, of_rviz}) {
     const auto markers = convert(bytes, style);
     if (markers) {
       CheckMarkers(*markers);
@@ -94,7 +97,7 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 25) {
+  switch (data[0] % 28) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -127,7 +130,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 21: CheckShown<sensor_msgs::Temperature>(bytes); break;
     case 22: CheckShown<sensor_msgs::Illuminance>(bytes); break;
     case 23: CheckShown<sensor_msgs::FluidPressure>(bytes); break;
-    default: CheckShown<sensor_msgs::RelativeHumidity>(bytes); break;
+    case 24: CheckShown<sensor_msgs::RelativeHumidity>(bytes); break;
+    case 25: CheckShown<geometry_msgs::TwistStamped>(bytes); break;
+    case 26: CheckShown<geometry_msgs::AccelStamped>(bytes); break;
+    default: CheckShown<sensor_msgs::Range>(bytes); break;
   }
   return 0;
 }

@@ -63,10 +63,11 @@ TEST(Legend, ListsOnlyWhatThePictureShowsWithItsColours) {
   look.ghosts = {{state.people[0], 0.35, "N-pose"}, {state.people[0], 0.35, "N-pose"}};
   state.robots = {Robot("arm")};
   state.objects.resize(2);
-  auto marker = std::make_shared<SceneMarker>();
+  auto marker = std::make_shared<SceneMarker>(), frames = std::make_shared<SceneMarker>();
+  frames->ns = kNamespaceOfFrames;
   marker->ns = "goal";
   marker->color = {0, 1, 0, 1};
-  state.markers = {marker};
+  state.markers = {marker, frames};
   const LegendContent content = LegendOf(state, look);
   EXPECT_THAT(NamesOf(content), IsSupersetOf({"path: right hand", "path: centre of mass", "N-pose",
                                               "robot arm", "tracked object", "marker goal"}));

@@ -53,6 +53,10 @@ BagSurroundings::BagSurroundings(const GraphView& view)
     : shown_topics_(ByName(view.topics)), camera_frame_(view.camera_frame) {
   for (const ShownTopic& topic : view.topics) {
     if (!topic.is_frame) continue;
+    if (topic.is_every_frame()) {
+      frames_.emplace(topic.style, kPlaceEveryNanos);
+      continue;
+    }
     // A topic begins with a slash, this name does not.
     AddAxes(store_, topics_.try_emplace("tf:" + topic.name, topics_.size()).first->second, topic);
     has_markers_ = true;
@@ -171,7 +175,8 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
 }
 
 void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
-  const bool is_used = has_markers_ || !robots_.empty() || camera_frame_.is_wanted() || is_static;
+  const bool is_used =
+      has_markers_ || !robots_.empty() || camera_frame_.is_wanted() || frames_ || is_static;
   if (is_used) tf_.Add(message, is_static);
 }
 
@@ -201,10 +206,17 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
   const bool has_new_images = images_.TakeChanged();
-  const bool has_new_base =
-      camera_frame_.Update(now_nanos, [&find](const std::string& frame) { return find(frame, 0); });
-  if (has_moved || has_new_markers || has_new_images || has_new_base) {
-    RecordedSurroundings all{store_.markers(), {}, images_.images(), camera_frame_.pose()};
+  const auto find_now = [&find](const std::string& frame) { return find(frame, 0); };
+  const bool has_new_base = camera_frame_.Update(now_nanos, find_now);
+  const auto list = [&] {
+    std::vector<TreeFrame> frames = tf_.frames();
+    frames.push_back({world, "", 0});
+    return frames;
+  };
+  const bool has_new_frames = frames_ && frames_->Update(now_nanos, list, find_now);
+  if (has_moved || has_new_markers || has_new_images || has_new_base || has_new_frames) {
+    RecordedSurroundings all{
+        Together(store_.markers(), frames_), {}, images_.images(), camera_frame_.pose()};
     for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
     sink.OnSurroundings(all);
   }
@@ -212,6 +224,9 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(lost.text).second) continue;
     spdlog::warn("bag '{}': {}; it is not shown", bag, lost.text);
   }
+  if (!frames_) return;
+  const std::string lost = frames_->TakeLost();
+  if (!lost.empty()) spdlog::warn("bag '{}': {}", bag, lost);
 }
 
 void BagSurroundings::WarnOfProblems(const std::string& bag) const {

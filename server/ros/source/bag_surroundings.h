@@ -23,6 +23,7 @@
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/robot_frames.h"
+#include "server/ros/shown_frames.h"
 #include "server/ros/source/bag_reader.h"
 #include "server/ros/source/bag_source.h"
 
@@ -74,6 +75,7 @@ class BagSurroundings {
   MessageShelf shelf_;
   ImageBox images_;
   FollowedFrame camera_frame_;
+  std::optional<ShownFrames> frames_;
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;  // their numbers
   std::set<std::string> lost_frames_;          // that were warned of

@@ -5,8 +5,10 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "server/ros/marker_input.h"
@@ -157,8 +159,100 @@ TEST(ShownMessages, AWrenchHasTheArrowsOfRvizIfItsScalesAreGiven) {
   EXPECT_NEAR(markers.at(1).points.at(1).x, -0.26, 1e-12);
   EXPECT_EQ(RgbOf(markers[1].color), (std::array<int, 3>{0, 0, 255}));
   EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{255, 255, 0}));
+  // A ring about the middle of its shaft, which is 0.2 m long and points along -x.
+  ASSERT_THAT(markers, SizeIs(4));
+  ASSERT_THAT(markers[2].points, SizeIs(29));
+  for (const auto& point : markers[2].points) {
+    EXPECT_NEAR(point.x, -0.1, 1e-12);
+    EXPECT_NEAR(std::hypot(point.y, point.z), 0.05, 1e-12);
+  }
+  EXPECT_NEAR(markers[2].scale.x, 0.05 * 0.3, 1e-12);
+  EXPECT_NEAR(markers[3].points.at(0).y, markers[2].points.back().y, 1e-12) << "it ends in a head";
+  EXPECT_NEAR(markers[3].points.at(0).z, markers[2].points.back().z, 1e-12);
+  const auto ring = [&](std::size_t i) {
+    const auto& at = markers[2].points.at(i);
+    return Eigen::Vector3d(at.x, at.y, at.z);
+  };
+  const Eigen::Vector3d center(-0.1, 0, 0);
+  EXPECT_LT((ring(0) - center).cross(ring(1) - center).x(), 0) << "the way that it turns";
   wrench.wrench.torque.x = 0;
   EXPECT_EQ(ShownOf(wrench, style).at(1).action, Marker::DELETE) << "it has no direction";
+  EXPECT_EQ(ShownOf(wrench, style).at(2).action, Marker::DELETE);
+}
+
+TEST(ShownMessages, ATwistAndAnAccelerationAreArrowsToo) {
+  auto twist = InFrame<geometry_msgs::TwistStamped>();
+  twist.twist.linear.x = 0.5;
+  twist.twist.angular.z = 0.005;
+  ShownMarkers markers = ShownOf(twist);
+  EXPECT_NEAR(markers.at(0).points.at(1).x, 0.5, 1e-12);
+  EXPECT_EQ(markers.at(1).action, Marker::DELETE);
+  auto accel = InFrame<geometry_msgs::AccelStamped>();
+  accel.accel.linear.z = 9.81;
+  accel.accel.angular.y = 2;
+  ShownStyle style;
+  style.wrench.torque_m = 0.5;
+  markers = ShownOf(accel, style);
+  EXPECT_NEAR(markers.at(0).points.at(1).z, 0.981, 1e-12);
+  EXPECT_NEAR(markers.at(1).points.at(1).y, 1, 1e-12);
+}
+
+TEST(ShownMessages, ARangeIsAConeAlongX) {
+  auto range = InFrame<sensor_msgs::Range>();
+  range.min_range = 0.1F;
+  range.max_range = 4;
+  range.range = 2;
+  range.field_of_view = 0.5F;
+  const Marker cone = ShownOf(range).at(0);
+  ASSERT_EQ(cone.type, Marker::TRIANGLE_LIST);
+  EXPECT_NEAR(cone.color.a, 0.5, 1e-6);
+  double farthest = 0, widest = 0;
+  for (const auto& point : cone.points) {
+    farthest = std::max(farthest, point.x);
+    widest = std::max(widest, point.z);
+  }
+  EXPECT_NEAR(farthest, 2, 1e-6);
+  EXPECT_NEAR(widest, 2 * std::tan(0.25), 1e-6);
+  range.range = 5;
+  EXPECT_EQ(ShownOf(range).at(0).action, Marker::DELETE) << "nothing is seen";
+  range.range = -std::numeric_limits<float>::infinity();
+  EXPECT_EQ(ShownOf(range).at(0).action, Marker::DELETE);
+  range.max_range = range.min_range;  // a sensor that says only that something is there
+  EXPECT_EQ(ShownOf(range).at(0).action, Marker::ADD);
+  range.field_of_view = 3.2F;
+  EXPECT_THAT(ShownOf(range), SizeIs(0));
+}
+
+TEST(ShownMessages, APoseHasTheEllipsoidOfItsCovarianceIfTold) {
+  auto odometry = InFrame<nav_msgs::Odometry>();
+  odometry.pose.pose.position.x = 3;
+  odometry.pose.pose.orientation.w = 1;
+  auto& covariance = odometry.pose.covariance;
+  covariance[0] = covariance[7] = 0.05;  // of x and y, which go together
+  covariance[1] = covariance[6] = 0.04;
+  covariance[14] = 0.0025;
+  EXPECT_THAT(ShownOf(odometry), SizeIs(1));
+  ShownStyle style;
+  style.covariance.scale = 2;
+  const ShownMarkers markers = ShownOf(odometry, style);
+  ASSERT_THAT(markers, SizeIs(2));
+  const Marker& ellipsoid = markers[1];
+  EXPECT_EQ(ellipsoid.type, Marker::SPHERE);
+  EXPECT_EQ(ellipsoid.pose.position.x, 3);
+  EXPECT_NEAR(ellipsoid.color.a, 0.3, 1e-6);
+  EXPECT_NEAR(ellipsoid.scale.z, 2 * 2 * 0.3, 1e-9) << "the largest last";
+  EXPECT_NEAR(ellipsoid.scale.y, 2 * 2 * 0.1, 1e-9);
+  EXPECT_NEAR(ellipsoid.scale.x, 2 * 2 * 0.05, 1e-9);
+  const Eigen::Quaterniond turn(ellipsoid.pose.orientation.w, ellipsoid.pose.orientation.x,
+                                ellipsoid.pose.orientation.y, ellipsoid.pose.orientation.z);
+  EXPECT_NEAR(std::abs((turn * Eigen::Vector3d::UnitZ()).dot(Eigen::Vector3d(1, 1, 0))),
+              std::sqrt(2), 1e-9);
+  covariance[14] = 0;
+  EXPECT_EQ(ShownOf(odometry, style).at(1).action, Marker::ADD) << "a flat one";
+  covariance.fill(0);
+  EXPECT_EQ(ShownOf(odometry, style).at(1).action, Marker::DELETE);
+  covariance[0] = std::nan("");
+  EXPECT_EQ(ShownOf(odometry, style).at(1).action, Marker::DELETE);
 }
 
 // As human-dynamics-estimation shows the efforts of joints: a sphere at each, green to red.

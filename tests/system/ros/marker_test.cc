@@ -117,6 +117,20 @@ TEST_F(MarkersOverRos, AxesOfAFrameGoWithItAndThoseOfTheSceneStand) {
   Await("2 markers; line list cart/0 at 2.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
 }
 
+TEST_F(MarkersOverRos, AllFramesHaveTheirNames) {
+  bridge_.reset();
+  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
+  bridge_ = std::make_unique<testing::Process>(
+      std::vector<std::string>{KINESCOPE_MARKER_LISTENER, "tf:*"});
+  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
+  Await("2 markers; line list tf/0 at 0.000 0.000 0.000; text tf/3 at 0.000 0.000 -0.020");
+  SetCart(1);  // its axes, the arrow from it to the world, and both names
+  Await(
+      "5 markers; line list tf/0 at 0.000 0.000 0.000; line list tf/1 at 0.000 0.000 0.000; "
+      "triangle list tf/2 at 0.000 0.000 0.000; text tf/3 at 1.000 0.000 -0.020; "
+      "text tf/4 at 0.000 0.000 -0.020");
+}
+
 TEST_F(MarkersOverRos, OnALinkFollowThePerson) {
   Marker badge = Of(Marker::CYLINDER, 1);
   badge.header.frame_id = "skeleton_pelvis";

@@ -21,10 +21,13 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/ros/rviz_fixture.h"
 
 namespace kinescope {
@@ -42,16 +45,19 @@ constexpr char kArmOfScene[] =
     "<origin xyz='0 0 0.55'/><axis xyz='0 -1 0'/><limit lower='-2' upper='2' effort='1' "
     "velocity='1'/></joint></robot>";
 
-constexpr char kConfig[] = R"(Panels: []
+constexpr char kPersonOfConfig[] = R"(Panels: []
 Visualization Manager:
   Class: ""
   Displays:
-    - {Class: rviz/RobotModel, Name: Arm, Enabled: true, Value: true, Alpha: 1,
-       Robot Description: robot_description, Visual Enabled: true, Collision Enabled: false}
     - {Class: rviz/RobotModel, Name: Person, Enabled: true, Value: true, Alpha: 1,
        Robot Description: human_description, Visual Enabled: true, Collision Enabled: false}
     - {Class: rviz/MarkerArray, Name: Loads, Enabled: true, Value: true,
        Marker Topic: /kinescope/markers, Namespaces: {}}
+)";
+
+constexpr char kThingsOfConfig[] =
+    R"(    - {Class: rviz/RobotModel, Name: Arm, Enabled: true, Value: true, Alpha: 1,
+       Robot Description: robot_description, Visual Enabled: true, Collision Enabled: false}
     - {Class: rviz/PointCloud2, Name: Cloud, Enabled: true, Value: true, Topic: /cloud, Alpha: 1,
        Style: Boxes, Size (m): 0.03, Color Transformer: FlatColor, Color: 230; 30; 220}
     - {Class: rviz/PointCloud2, Name: Heights, Enabled: true, Value: true, Topic: /heights, Alpha: 1,
@@ -68,7 +74,25 @@ Visualization Manager:
        Line Style: Billboards, Line Width: 0.04, Color: 20; 220; 30}
     - {Class: rviz/Marker, Name: Wall, Enabled: true, Value: true, Marker Topic: /wall,
        Namespaces: {}}
-  Enabled: true
+)";
+
+// Without the frames whose names follow.
+constexpr char kFramesOfConfig[] =
+    R"(    - Class: rviz/TF
+      Name: Frames
+      Enabled: true
+      Value: true
+      Show Names: false
+      Show Axes: true
+      Show Arrows: true
+      Marker Scale: 3
+      Marker Alpha: 1
+      Frame Timeout: 15
+      Frames:
+        All Enabled: false
+)";
+
+constexpr char kViewOfConfig[] = R"(  Enabled: true
   Global Options: {Background Color: 238; 240; 243, Fixed Frame: world, Frame Rate: 10}
   Tools: [{Class: rviz/Interact}]
   Value: true
@@ -93,14 +117,14 @@ struct Thing {
   const char* name;
   std::array<int, 3> color;
 };
-constexpr std::array<Thing, 8> kThings = {{{"base", {26, 64, 230}},
-                                           {"hand", {230, 204, 13}},
-                                           {"cloud", {230, 30, 220}},
-                                           {"heights", {0, 255, 255}},
-                                           {"effort", {255, 0, 100}},
-                                           {"push", {255, 140, 0}},
-                                           {"path", {20, 220, 30}},
-                                           {"wall", {230, 30, 20}}}};
+const std::vector<Thing> kThings = {{"base", {26, 64, 230}},   {"hand", {230, 204, 13}},
+                                    {"cloud", {230, 30, 220}}, {"heights", {0, 255, 255}},
+                                    {"effort", {255, 0, 100}}, {"push", {255, 140, 0}},
+                                    {"path", {20, 220, 30}},   {"wall", {230, 30, 20}}};
+const std::vector<Thing> kPartsOfFrames = {{"x axes", {255, 0, 0}},
+                                           {"y axes", {0, 255, 0}},
+                                           {"z axes", {0, 0, 255}},
+                                           {"heads of arrows", {255, 26, 153}}};
 
 struct Place {
   std::array<double, 4> edges = {};  // px: left, right, top, bottom
@@ -157,6 +181,60 @@ class RVizScene : public testing::RVizProgram {
     std_msgs::Bool is_done;
     path.data = file;
     return client.exists() && client.call(path, is_done, "*") && is_done.data;
+  }
+
+  // Starts the server, and RViz anew, with the configuration in `file`.
+  void StartBoth(const std::string& file) {
+    serve_ = Start(
+        "serve demo:n_pose --ros required --http_port 0 --ros_view_size 800x600 "
+        "--ros_view_rate_hz 5 --rviz '" +
+        file + "'");
+    WaitForParameter("/human_description");  // RViz reads it when it starts
+    rviz_ = StartRViz();
+    Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [this](const sensor_msgs::Image& image) {
+      ours_.resize(kWidth * kHeight);
+      if (image.data.size() != 3 * ours_.size()) return;
+      for (std::size_t i = 0; i < ours_.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) ours_[i][k] = image.data[3 * i + k];
+      }
+    });
+  }
+
+  // Neither says when it has drawn all: they have when they agree.
+  void ExpectBothToShow(const std::vector<Thing>& things) {
+    std::string told;
+    const auto agree = [&] {
+      MoveArm();
+      if (ours_.empty()) return false;
+      theirs_ = Grab();
+      told.clear();
+      bool is_same = true;
+      for (const Thing& thing : things) {
+        const Place a = PlaceOf(thing, theirs_, kWidth), b = PlaceOf(thing, ours_, kWidth);
+        told += fmt::format("{}: RViz {} ({} px), Kinescope {} ({} px)\n", thing.name, a.edges,
+                            a.pixels, b.edges, b.pixels);
+        is_same = is_same && a.pixels > 300 && b.pixels > 300;
+        for (std::size_t k = 0; k < 4; ++k) {
+          is_same = is_same && std::abs(a.edges[k] - b.edges[k]) <= 3;
+        }
+      }
+      return is_same;
+    };
+    EXPECT_TRUE(Spin(agree)) << told << testing::ReadFile(folder_ / "rviz.log");
+    fmt::print("{}", told);
+  }
+
+  void SavePictures(const std::string& scene) const {
+    for (const auto& [name, pixels] :
+         {std::pair("rviz", &theirs_), std::pair("kinescope", &ours_)}) {
+      std::string ppm = fmt::format("P6 {} {} 255\n", kWidth, kHeight);
+      for (const std::array<int, 3>& color : *pixels) {
+        for (const int channel : color) ppm += static_cast<char>(channel);
+      }
+      const std::filesystem::path folder = KINESCOPE_SCREENSHOTS;
+      std::filesystem::create_directories(folder);
+      std::ofstream(folder / fmt::format("{}_{}.ppm", scene, name), std::ios::binary) << ppm;
+    }
   }
 
   void MoveArm() {
@@ -273,61 +351,38 @@ class RVizScene : public testing::RVizProgram {
 
   ros::Publisher joints_;
   std::vector<ros::Publisher> latched_;
+  std::unique_ptr<Process> serve_, rviz_;
+  Pixels ours_, theirs_;
 };
 
 TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
-  Write("view.rviz", kConfig);
+  Write("view.rviz", std::string(kPersonOfConfig) + kThingsOfConfig + kViewOfConfig);
   const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
-  auto rviz = StartRViz();
   const std::string saved = (folder_ / "saved.rviz").string();
-  ASSERT_TRUE(Spin([&] { return SaveConfig(saved); })) << testing::ReadFile(folder_ / "rviz.log");
-  rviz.reset();
-  const auto serve = Start(
-      "serve demo:n_pose --ros required --http_port 0 --ros_view_size 800x600 --ros_view_rate_hz 5 "
-      "--rviz '" +
-      saved + "'");
-  WaitForParameter("/human_description");  // RViz reads it when it starts
+  {
+    const auto rviz = StartRViz();
+    ASSERT_TRUE(Spin([&] { return SaveConfig(saved); })) << testing::ReadFile(folder_ / "rviz.log");
+  }
   std::filesystem::copy_file(saved, folder_ / "view.rviz",
                              std::filesystem::copy_options::overwrite_existing);
-  rviz = StartRViz();
-  Pixels ours, theirs;
-  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const sensor_msgs::Image& image) {
-    ours.resize(kWidth * kHeight);
-    if (image.data.size() != 3 * ours.size()) return;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) ours[i][k] = image.data[3 * i + k];
-    }
-  });
-  std::string told;
-  // Neither says when it has drawn all: they have when they agree.
-  const auto agree = [&] {
-    MoveArm();
-    if (ours.empty()) return false;
-    theirs = Grab();
-    told.clear();
-    bool is_same = true;
-    for (const Thing& thing : kThings) {
-      const Place a = PlaceOf(thing, theirs, kWidth), b = PlaceOf(thing, ours, kWidth);
-      told += fmt::format("{}: RViz {} ({} px), Kinescope {} ({} px)\n", thing.name, a.edges,
-                          a.pixels, b.edges, b.pixels);
-      is_same = is_same && a.pixels > 300 && b.pixels > 300;
-      for (std::size_t k = 0; k < 4; ++k) {
-        is_same = is_same && std::abs(a.edges[k] - b.edges[k]) <= 3;
-      }
-    }
-    return is_same;
-  };
-  EXPECT_TRUE(Spin(agree)) << told << testing::ReadFile(folder_ / "rviz.log");
-  fmt::print("{}", told);
-  for (const auto& [name, pixels] : {std::pair("rviz", &theirs), std::pair("kinescope", &ours)}) {
-    std::string ppm = fmt::format("P6 {} {} 255\n", kWidth, kHeight);
-    for (const std::array<int, 3>& color : *pixels) {
-      for (const int channel : color) ppm += static_cast<char>(channel);
-    }
-    const std::filesystem::path folder = KINESCOPE_SCREENSHOTS;
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / fmt::format("scene_{}.ppm", name), std::ios::binary) << ppm;
+  StartBoth(saved);
+  ExpectBothToShow(kThings);
+  SavePictures("scene");
+}
+
+TEST_F(RVizScene, HasTheFramesOfTfAsRVizShowsThem) {
+  const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
+  // Those of the person are many: without them.
+  const auto urdf = testing::RunProgram({testing::KinescopePath(), "urdf"});
+  std::string config = std::string(kPersonOfConfig) + kFramesOfConfig;
+  const std::regex link("<link name=\"([^\"]+)\"");
+  for (std::sregex_iterator at(urdf.out.begin(), urdf.out.end(), link), end; at != end; ++at) {
+    config += "        " + (*at)[1].str() + ": {Value: false}\n";
   }
+  Write("view.rviz", config + kViewOfConfig);
+  StartBoth((folder_ / "view.rviz").string());
+  ExpectBothToShow(kPartsOfFrames);
+  SavePictures("frames");
 }
 
 }  // namespace

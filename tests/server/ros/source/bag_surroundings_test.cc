@@ -227,6 +227,26 @@ TEST_F(BagSurroundingsTest, AreAxesOfFramesThatAreNamed) {
   EXPECT_EQ(axes.points[3], Eigen::Vector3d(0, 1, 0));
 }
 
+TEST_F(BagSurroundingsTest, AreAllFramesWithTheirNamesIfTold) {
+  GraphView view;
+  view.topics = {{kEveryFrame, {}, true}};
+  view.topics[0].style.frames.has_axes = view.topics[0].style.frames.has_arrows = false;
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin + kStep / 2), FrameAt("cart", 3, kBegin + kStep / 2));
+        bag.write("/tf", TimeOf(kBegin + 9 * kStep / 2),
+                  FrameAt("cart", 4, kBegin + 9 * kStep / 2));
+      },
+      view);
+  std::map<std::string, double> places;
+  for (const auto& marker : recorded.markers.back()) {
+    places[marker->text] = marker->pose.position.x();
+  }
+  EXPECT_EQ(places.at("cart"), 4);
+  EXPECT_EQ(places.at("world"), 0);
+  EXPECT_EQ(places.count("skeleton_head"), 1u) << "those of the people, too";
+}
+
 TEST_F(BagSurroundingsTest, AreThereFromTheirTimeUntilTheyAreDeletedOrExpire) {
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker brief = CubeIn("world", 2, 5);

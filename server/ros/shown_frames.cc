@@ -1,0 +1,213 @@
+#include "server/ros/shown_frames.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "core/system/clocks.h"
+#include "core/system/utf8.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+// RViz's, as shares of the length of an axis.
+constexpr double kUsualLength = 0.2;  // m
+constexpr double kAxisWidth = 0.1;
+constexpr double kShaftWidth = 0.05, kHeadWidth = 0.2, kHeadLength = 0.5;
+constexpr double kShortestArrow = 0.001;  // m
+constexpr double kNameHeight = 0.2;  // ours, which is smaller, and can be read on light and dark
+constexpr Rgb kNameColor = {0.38, 0.46, 0.62};
+const Vector3d kShaftColor(0.8, 0.8, 0.3), kHeadColor(1, 0.1, 0.6), kGrey(0.7, 0.7, 0.7);
+constexpr int kSidesOfHead = 8;
+constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
+constexpr double kFarthest = kFarthestMarker / 2;
+constexpr std::size_t kMostNamed = 8;
+
+std::shared_ptr<SceneMarker> EmptyMarker(int id, MarkerType type) {
+  auto marker = std::make_shared<SceneMarker>();
+  marker->ns = kNamespaceOfFrames;
+  marker->id = id;
+  marker->type = type;
+  return marker;
+}
+
+Vector4d Faded(const Vector3d& color, double grey, double alpha) {
+  Vector4d faded;
+  faded << (1 - grey) * color + grey * kGrey, alpha;
+  return faded;
+}
+
+void AddLine(SceneMarker& lines, const Vector3d& from, const Vector3d& to, const Vector4d& color) {
+  lines.points.insert(lines.points.end(), {from, to});
+  lines.colors.insert(lines.colors.end(), 2, color);
+}
+
+// With its round base at `base`.
+void AddHead(SceneMarker& heads, const Vector3d& base, const Vector3d& tip, double radius,
+             const Vector4d& color) {
+  const Vector3d ahead = (tip - base).normalized();
+  const Vector3d side = ahead.unitOrthogonal(), other = ahead.cross(side);
+  const auto corner = [&](int i) -> Vector3d {
+    const double angle = 2 * M_PI * i / kSidesOfHead;
+    return base + radius * (std::cos(angle) * side + std::sin(angle) * other);
+  };
+  for (int i = 0; i < kSidesOfHead; ++i) {
+    heads.points.insert(heads.points.end(), {corner(i), corner(i + 1), tip});
+    heads.points.insert(heads.points.end(), {corner(i + 1), corner(i), base});
+    heads.colors.insert(heads.colors.end(), 6, color);
+  }
+}
+
+}  // namespace
+
+ShownFrames::ShownFrames(const ShownStyle& style, std::int64_t every_nanos)
+    : style_(style), every_nanos_(every_nanos) {}
+
+bool ShownFrames::Shown::operator==(const Shown& other) const {
+  return name == other.name && pose.position == other.pose.position &&
+         pose.orientation.coeffs() == other.pose.orientation.coeffs() && parent == other.parent &&
+         grey == other.grey && alpha == other.alpha;
+}
+
+bool ShownFrames::Update(std::int64_t now_nanos, const ListFrames& list, const FindFrame& find) {
+  // A recording that is played again begins earlier.
+  const bool is_again = looked_nanos_ && now_nanos < *looked_nanos_;
+  if (looked_nanos_ && !is_again && now_nanos - *looked_nanos_ < every_nanos_) return false;
+  looked_nanos_ = now_nanos;
+  if (is_again) {
+    seen_.clear();
+    lost_.clear();
+  }
+  std::map<std::string, TreeFrame> tree;
+  for (TreeFrame& frame : list()) {
+    Seen& seen = seen_.try_emplace(frame.name, Seen{frame.newest_nanos, now_nanos}).first->second;
+    if (seen.newest_nanos != frame.newest_nanos) seen = {frame.newest_nanos, now_nanos};
+    tree.try_emplace(frame.name, std::move(frame));
+  }
+  std::vector<Shown> shown = Place(tree, find, now_nanos);
+  if (shown == shown_) return false;
+  shown_ = std::move(shown);
+  Draw();
+  return true;
+}
+
+// Of the frame, or of any that it hangs on, s; 0: it always holds.
+double ShownFrames::AgeOf(const std::string& frame, const std::map<std::string, TreeFrame>& tree,
+                          std::int64_t now_nanos) const {
+  double age = 0;
+  auto found = tree.find(frame);
+  for (int i = 0; i < kDeepest && found != tree.end(); ++i) {
+    const Seen& seen = seen_.at(found->first);
+    if (seen.newest_nanos != 0) age = std::max(age, Secs(now_nanos - seen.since_nanos));
+    found = tree.find(found->second.parent);
+  }
+  return age;
+}
+
+std::vector<ShownFrames::Shown> ShownFrames::Place(const std::map<std::string, TreeFrame>& tree,
+                                                   const FindFrame& find, std::int64_t now_nanos) {
+  const FramesStyle& frames = style_.frames;
+  std::map<std::string, std::optional<urdf::Pose>> places;  // most frames are parents, too
+  const auto find_near = [&](const std::string& name) {
+    const auto [place, is_new] = places.try_emplace(name);
+    if (is_new) place->second = find(name);
+    if (place->second && !(place->second->position.cwiseAbs().maxCoeff() < kFarthest)) {
+      place->second.reset();
+    }
+    return place->second;
+  };
+  std::vector<Shown> all;
+  for (const auto& [name, frame] : tree) {
+    if (all.size() == kMostShownFrames) break;
+    if (std::find(frames.hidden.begin(), frames.hidden.end(), name) != frames.hidden.end())
+      continue;
+    const double age = AgeOf(name, tree, now_nanos) / frames.timeout_secs;
+    if (age >= 1) continue;
+    const std::optional<urdf::Pose> pose = find_near(name);
+    if (!pose) {
+      if (lost_.size() < kMostShownFrames) lost_.try_emplace(name, now_nanos);
+      continue;
+    }
+    lost_.erase(name);
+    Shown shown{
+        name, *pose, {}, std::clamp(3 * age - 1, 0.0, 1.0), std::clamp(3 - 3 * age, 0.0, 1.0)};
+    const auto parent =
+        frames.has_arrows && !frame.parent.empty() ? find_near(frame.parent) : std::nullopt;
+    if (parent) shown.parent = parent->position;
+    all.push_back(std::move(shown));
+  }
+  return all;
+}
+
+void ShownFrames::Draw() {
+  const double length = style_.size_m.value_or(kUsualLength);
+  const auto axes = EmptyMarker(0, MarkerType::kLineList),
+             shafts = EmptyMarker(1, MarkerType::kLineList),
+             heads = EmptyMarker(2, MarkerType::kTriangleList);
+  axes->scale.x() = kAxisWidth * length;
+  shafts->scale.x() = kShaftWidth * length;
+  markers_.clear();
+  for (const Shown& frame : shown_) {
+    const Vector3d& at = frame.pose.position;
+    const Eigen::Matrix3d turn = frame.pose.orientation.toRotationMatrix();
+    for (int i = 0; style_.frames.has_axes && i < 3; ++i) {
+      AddLine(*axes, at, at + length * turn.col(i),
+              Faded(Vector3d::Unit(i), frame.grey, frame.alpha * style_.alpha.value_or(1)));
+    }
+    const double distance = frame.parent ? (*frame.parent - at).norm() : 0;
+    if (distance >= kShortestArrow) {
+      const double usual = kHeadLength * length;  // RViz's of a short arrow is shorter
+      const double head = distance < usual ? usual * distance : usual;
+      const Vector3d base = *frame.parent + head / distance * (at - *frame.parent);
+      AddLine(*shafts, at, base, Faded(kShaftColor, frame.grey, frame.alpha));
+      AddHead(*heads, base, *frame.parent, kHeadWidth * length / 2,
+              Faded(kHeadColor, frame.grey, frame.alpha));
+    }
+  }
+  for (const auto& marker : {axes, shafts, heads}) {
+    if (!marker->points.empty()) markers_.push_back(marker);
+  }
+  const Rgb rgb = style_.color.value_or(kNameColor);
+  const Vector3d color(rgb[0], rgb[1], rgb[2]);
+  for (std::size_t i = 0; style_.frames.has_names && i < shown_.size(); ++i) {
+    const Shown& frame = shown_[i];
+    const auto name = EmptyMarker(static_cast<int>(i) + 3, MarkerType::kText);
+    name->text = PrintableLine(frame.name.substr(0, kMaxMarkerText / 2));
+    if (name->text.size() > kMaxMarkerText) continue;
+    name->scale.z() = style_.frames.name_m.value_or(kNameHeight * length);
+    name->pose.position = frame.pose.position - Vector3d(0, 0, name->scale.z() / 2);
+    name->color = Faded(color, frame.grey, frame.alpha);
+    markers_.push_back(name);
+  }
+}
+
+std::string ShownFrames::TakeLost() {
+  std::vector<std::string> names;
+  for (const auto& [name, since_nanos] : lost_) {
+    const bool is_for_long = looked_nanos_ && *looked_nanos_ - since_nanos >= kNanosPerSecond;
+    if (is_for_long && told_.size() < kMostShownFrames && told_.insert(name).second) {
+      names.push_back(name);
+    }
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+    text += (text.empty() ? "frames without a way to that of the scene: " : ", ") +
+            PrintableLine(names[i].substr(0, kMaxMarkerText));
+  }
+  if (names.size() > kMostNamed) {
+    text += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  }
+  return text;
+}
+
+MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames) {
+  if (frames) markers.insert(markers.end(), frames->markers().begin(), frames->markers().end());
+  return markers;
+}
+
+}  // namespace kinescope::ros_bridge

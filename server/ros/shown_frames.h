@@ -1,0 +1,75 @@
+/// Frames of TF as RViz's TF display has them: axes, a name below them and an arrow to the parent.
+/// One thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/graph_view.h"
+#include "core/scene_marker.h"
+#include "server/ros/force_frames.h"
+#include "urdf/kinematics.h"
+
+namespace kinescope::ros_bridge {
+
+inline constexpr std::size_t kMostShownFrames = 500;
+
+class ShownFrames {
+ public:
+  using ListFrames = std::function<std::vector<TreeFrame>()>;
+  /// Where a frame is now, in the frame of the scene.
+  using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
+
+  /// @param every_nanos  the frames are looked at no more often
+  ShownFrames(const ShownStyle& style, std::int64_t every_nanos);
+
+  /// True if the markers have changed. Of more than kMostShownFrames frames the first by name are
+  /// shown. A frame whose transforms do not come any more turns grey, pale, and is gone after the
+  /// timeout of the style; that one is by the clock of `now_nanos`.
+  bool Update(std::int64_t now_nanos, const ListFrames& list, const FindFrame& find);
+
+  /// Axes, shafts and heads of all arrows, then the names, in the frame of the scene.
+  const MarkerList& markers() const { return markers_; }
+
+  /// "frames without a way to that of the scene: a, b": those that have had none for a second, each
+  /// once; "": no further ones.
+  [[nodiscard]] std::string TakeLost();
+
+ private:
+  struct Seen {
+    std::int64_t newest_nanos = 0;  // stamp of its transform; 0: it always holds
+    std::int64_t since_nanos = 0;   // the clock of Update
+  };
+  struct Shown {
+    std::string name;
+    urdf::Pose pose;
+    std::optional<Eigen::Vector3d> parent;  // where the arrow ends
+    double grey = 0, alpha = 1;             // of a frame that is not heard of
+    bool operator==(const Shown& other) const;
+  };
+
+  double AgeOf(const std::string& frame, const std::map<std::string, TreeFrame>& tree,
+               std::int64_t now_nanos) const;
+  std::vector<Shown> Place(const std::map<std::string, TreeFrame>& tree, const FindFrame& find,
+                           std::int64_t now_nanos);
+  void Draw();
+
+  const ShownStyle style_;
+  const std::int64_t every_nanos_;
+  std::optional<std::int64_t> looked_nanos_;
+  std::map<std::string, Seen> seen_;
+  std::vector<Shown> shown_;
+  MarkerList markers_;
+  std::map<std::string, std::int64_t> lost_;  // those without a way, since when
+  std::set<std::string> told_;                // those that were told
+};
+
+/// `markers`, then those of the frames, if they are shown.
+MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames);
+
+}  // namespace kinescope::ros_bridge
