@@ -225,7 +225,7 @@ void ShownTopicsValue::Parse(const std::string& text) {
 std::string ShownTopicsValue::Expected() const {
   return "up to " + std::to_string(kMostShownTopics) +
          " topics with commas between, such as /walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),"
-         "/goal(shape=axes),/scan(by=z,from=0,to=2) (size in m)";
+         "/goal(shape=axes),/scan(by=z,from=0,to=2) (size in m), or tf:* for all frames of TF";
 }
 
 }  // namespace kinescope::app

@@ -445,7 +445,7 @@ void ViewOptions::List(options::OptionList& option) {
   option("robot", robot, kRobotHelp);
   option("marker_topics", marker_topics,
          "topics of a bag to show beside its markers: points, poses, paths, wrenches, laser scans, "
-         "point clouds, maps and pictures of cameras (docs/ros.md)");
+         "point clouds, maps, pictures of cameras and frames of TF (docs/ros.md)");
   for (const char* name : {"dpi", "text_pt"}) {
     option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
   }

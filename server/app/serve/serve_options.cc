@@ -185,7 +185,8 @@ void ServeOptions::List(options::OptionList& option) {
   backend.List(option);
   option("marker_topics", marker_topics,
          "topics to show: visualization_msgs/Marker and MarkerArray, points, poses, paths, "
-         "wrenches, laser scans, point clouds, maps and pictures of cameras (docs/ros.md)");
+         "wrenches, laser scans, point clouds, maps, pictures of cameras and frames of TF "
+         "(docs/ros.md)");
   option.Formerly("markers");
   option("ros_view", ros_view,
          "whether the ROS camera ~view is published (image_raw, camera_info and its frame); "
