@@ -87,8 +87,8 @@ TEST_F(ShownFramesTest, AreAxesANameAndAnArrowToTheParent) {
   EXPECT_DOUBLE_EQ(radius, 0.02);
   EXPECT_THAT(Names(), ElementsAre("cart", "world"));
   const SceneMarker& name = *frames_->markers()[3];
-  EXPECT_DOUBLE_EQ(name.scale.z(), 0.04);
-  EXPECT_EQ(name.pose.position, Vector3d(2, 0, -0.02)) << "below its frame";
+  EXPECT_NEAR(name.scale.z(), 0.04, 1e-12);
+  EXPECT_TRUE(name.pose.position.isApprox(Vector3d(2, 0, -0.02))) << "below its frame";
 }
 
 TEST_F(ShownFramesTest, AreWhatTheStyleHasOfThem) {
