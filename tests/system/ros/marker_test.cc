@@ -35,6 +35,14 @@ class MarkersOverRos : public testing::RosProgram {
     return publisher;
   }
 
+  void ListenAnewTo(const std::string& topics) {
+    bridge_.reset();
+    ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
+    bridge_ = std::make_unique<testing::Process>(
+        std::vector<std::string>{KINESCOPE_MARKER_LISTENER, topics});
+    ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
+  }
+
   // Until the scene is `expected`; what it was before is passed over.
   void Await(const std::string& expected) {
     std::string seen;
@@ -105,11 +113,7 @@ TEST_F(MarkersOverRos, WaitForTheirFrameAndFollowItIfLocked) {
 }
 
 TEST_F(MarkersOverRos, AxesOfAFrameGoWithItAndThoseOfTheSceneStand) {
-  bridge_.reset();
-  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
-  bridge_ = std::make_unique<testing::Process>(
-      std::vector<std::string>{KINESCOPE_MARKER_LISTENER, "tf:cart,tf:"});
-  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
+  ASSERT_NO_FATAL_FAILURE(ListenAnewTo("tf:cart,tf:"));
   Await("1 markers; line list axes/0 at 0.000 0.000 0.000");
   SetCart(1);
   Await("2 markers; line list cart/0 at 1.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
@@ -118,11 +122,7 @@ TEST_F(MarkersOverRos, AxesOfAFrameGoWithItAndThoseOfTheSceneStand) {
 }
 
 TEST_F(MarkersOverRos, AllFramesHaveTheirNames) {
-  bridge_.reset();
-  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
-  bridge_ = std::make_unique<testing::Process>(
-      std::vector<std::string>{KINESCOPE_MARKER_LISTENER, "tf:*"});
-  ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
+  ASSERT_NO_FATAL_FAILURE(ListenAnewTo("tf:*"));
   Await("2 markers; line list tf/0 at 0.000 0.000 0.000; text tf/3 at 0.000 0.000 -0.020");
   SetCart(1);  // its axes, the arrow from it to the world, and both names
   Await(

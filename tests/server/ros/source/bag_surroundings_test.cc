@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "server/ros/markers.h"
 #include "server/ros/source/bag_source.h"
@@ -207,16 +208,17 @@ TEST_F(BagSurroundingsTest, AreEarlierMessagesToo) {
   EXPECT_THAT(CountsOf(Read(write, view)), ElementsAre(1, 2, 3, 3, 2, 1));
 }
 
+// At x = 3 m, then at 4 m.
+void WriteCart(rosbag::Bag& bag) {
+  for (const auto& [x, nanos] : {std::pair(3, kBegin + kStep / 2), {4, kBegin + 9 * kStep / 2}}) {
+    bag.write("/tf", TimeOf(nanos), FrameAt("cart", x, nanos));
+  }
+}
+
 TEST_F(BagSurroundingsTest, AreAxesOfFramesThatAreNamed) {
   GraphView view;
   view.topics = {{"cart", {}, true}};
-  const Recorded recorded = Read(
-      [](rosbag::Bag& bag) {
-        bag.write("/tf", TimeOf(kBegin + kStep / 2), FrameAt("cart", 3, kBegin + kStep / 2));
-        bag.write("/tf", TimeOf(kBegin + 9 * kStep / 2),
-                  FrameAt("cart", 4, kBegin + 9 * kStep / 2));
-      },
-      view);
+  const Recorded recorded = Read(WriteCart, view);
   EXPECT_EQ(CountsOf(recorded).back(), 1u);
   const SceneMarker& axes = *recorded.markers.back().front();
   EXPECT_EQ(axes.ns, "cart");
@@ -231,13 +233,7 @@ TEST_F(BagSurroundingsTest, AreAllFramesWithTheirNamesIfTold) {
   GraphView view;
   view.topics = {{kEveryFrame, {}, true}};
   view.topics[0].style.frames.has_axes = view.topics[0].style.frames.has_arrows = false;
-  const Recorded recorded = Read(
-      [](rosbag::Bag& bag) {
-        bag.write("/tf", TimeOf(kBegin + kStep / 2), FrameAt("cart", 3, kBegin + kStep / 2));
-        bag.write("/tf", TimeOf(kBegin + 9 * kStep / 2),
-                  FrameAt("cart", 4, kBegin + 9 * kStep / 2));
-      },
-      view);
+  const Recorded recorded = Read(WriteCart, view);
   std::map<std::string, double> places;
   for (const auto& marker : recorded.markers.back()) {
     places[marker->text] = marker->pose.position.x();
