@@ -56,8 +56,11 @@ bool HasRow(const std::vector<LegendRow>& rows, const LegendRow& row) {
 // Rows of one kind, each once, the first ones by name.
 class NamedRows {
  public:
-  void Add(LegendRow row) {
+  /// @param only_once  not even in another color
+  void Add(LegendRow row, bool only_once = false) {
+    const auto has_name = [&](const LegendRow& each) { return each.name == row.name; };
     if (HasRow(rows_, row)) return;
+    if (only_once && std::any_of(rows_.begin(), rows_.end(), has_name)) return;
     if (rows_.size() < kMostNames) {
       rows_.push_back(std::move(row));
     } else {
@@ -156,7 +159,8 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
                  kBoxRadius,
                  marker->ns.empty() ? "marker" : "marker " + marker->ns,
                  "",
-                 LegendRow::Symbol::kBox});
+                 LegendRow::Symbol::kBox},
+                true);
   }
   markers.AppendTo(rows, "markers");
 }

@@ -116,6 +116,7 @@ struct SceneLook {
   Figure figure = Figure::kSkin;
   LoadsShown loads = LoadsShown::kSpheres;
   Style style = Style::kMatte;
+  double body_opacity = 1;  // 0..1, of people
   ScenePartSet shown;
   std::vector<Trail> trails;
   std::vector<Ghost> ghosts;

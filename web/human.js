@@ -64,7 +64,8 @@ export class Human {
     this.palette = palette;
     this.markers = markers;
     this.revision = model.revision;
-    this.ghostOpacity = model.ghost_opacity;  // null: a person of the stream
+    this.isGhost = model.ghost_opacity !== null;  // else a person of the stream
+    this.opacity = model.opacity;
     this.staleColor = toColor(palette.stale_body);
     this.clayColor = toColor(palette.clay);
     for (const link of model.links) {
@@ -165,7 +166,7 @@ export class Human {
       this.failedMeshes.push(failed);
       onChange();
     };
-    const skin = new SkinLevels(url, this.palette, this.ghostOpacity, {
+    const skin = new SkinLevels(url, this.palette, { opacity: this.opacity, isGhost: this.isGhost }, {
       onFail,
       onLoad: () => {
         if (this.#last) {
@@ -183,14 +184,14 @@ export class Human {
    *  @param {boolean} isLive */
   #bodyColor(isLive) {
     const { on_light: onLight, on_dark: onDark } = this.palette.ghost;
-    if (this.ghostOpacity !== null) return toColor(theme?.name === 'dark' ? onDark : onLight);
+    if (this.isGhost) return toColor(theme?.name === 'dark' ? onDark : onLight);
     if (!isLive) return this.staleColor;
     return this.#look.style === 'clay' ? this.clayColor : null;
   }
 
   /** Of that color. */
   get #colorShare() {
-    return this.ghostOpacity === null ? 1 : this.palette.ghost.share;
+    return this.isGhost ? this.palette.ghost.share : 1;
   }
 
   /** @param {{person: import('./state_codec.js').Person, isLive: boolean, floor: number}} last */
@@ -276,7 +277,7 @@ export class Human {
     if (known) return known.material;
     const live = toColor(rgba);
     const material = new THREE.MeshStandardMaterial({ color: live.clone(), roughness: 0.82 });
-    const opacity = (rgba[3] ?? 1) * (this.ghostOpacity ?? 1);
+    const opacity = (rgba[3] ?? 1) * this.opacity;
     if (opacity < 1) Object.assign(material, { transparent: true, opacity });
     this.#materials.set(key, { material, live });
     return material;

@@ -70,6 +70,8 @@ function usePosedVertices(shader, declarations) {
     .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
 }
 
+/** @typedef {{opacity: number, isGhost: boolean}} BodyLook  isGhost: it is a reference pose */
+
 export class SkinnedBody {
   /** Of a reference pose: what is in front is drawn into the depth first, so that one layer shines through. */
   group = new THREE.Group();
@@ -87,8 +89,8 @@ export class SkinnedBody {
 
   /** @param {import('./skin_buffer.js').Skin} skin
    *  @param {import('./messages.js').Palette} palette
-   *  @param {number|null} [opacity]  of a reference pose */
-  constructor(skin, palette, opacity = null) {
+   *  @param {BodyLook} [look] */
+  constructor(skin, palette, { opacity, isGhost } = { opacity: 1, isGhost: false }) {
     this.#rig = skin.rig;
     this.#skin = skin;
     this.#palette = palette;
@@ -104,12 +106,11 @@ export class SkinnedBody {
     this.mesh = new THREE.Mesh(geometry, this.#material(skin));
     this.mesh.frustumCulled = false;  // its bounds move with the frames
     this.group.add(this.mesh);
-    if (opacity === null) {
+    if (!isGhost) {
       this.#shadow = new FloorShadow(this.#surface.capsules);
       this.group.add(this.#shadow.mesh);
-    } else {
-      this.#becomeVeil(skin, opacity);
     }
+    if (isGhost || opacity < 1) this.#becomeVeil(skin, opacity);
   }
 
   /** @param {import('./skin_buffer.js').Skin} skin

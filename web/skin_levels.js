@@ -26,11 +26,11 @@ export class SkinLevels {
 
   /** @param {string} url  an absolute path; the page may be served below another path
    *  @param {import('./messages.js').Palette} palette
-   *  @param {number|null} opacity  of a reference pose; null: a person of the stream
+   *  @param {import('./skin.js').BodyLook} look
    *  @param {{onLoad: () => void, onFail: (url: string) => void}} events  of either level */
-  constructor(url, palette, opacity, events) {
+  constructor(url, palette, look, events) {
     this.#url = url;
-    this.#make = (/** @type {import('./skin_buffer.js').Skin} */ skin) => new SkinnedBody(skin, palette, opacity);
+    this.#make = (/** @type {import('./skin_buffer.js').Skin} */ skin) => new SkinnedBody(skin, palette, look);
     this.#events = events;
     this.#load(url, (body) => { this.#whole = body; });
   }

@@ -261,10 +261,14 @@ class GlDrawing : public Drawing {
     };
     for (const auto& [id, person] : people_) add(person->shadow(), id);
     for (const auto& robot : robots_) add(robot->shadow());
-    for (const auto& [id, person] : people_) {
-      for (vtkActor* body : person->bodies()) add(body, id);
-      add(person->held(), id);
-    }
+    const auto add_bodies = [&](bool are_veils) {
+      for (const auto& [id, person] : people_) {
+        if (person->has_veil() != are_veils) continue;
+        for (vtkActor* body : person->bodies()) add(body, id);
+      }
+    };
+    add_bodies(false);
+    for (const auto& [id, person] : people_) add(person->held(), id);
     for (vtkActor* object : objects_.actors()) add(object);
     for (const auto& robot : robots_) {
       for (vtkActor* body : robot->bodies()) add(body);
@@ -278,6 +282,7 @@ class GlDrawing : public Drawing {
       for (vtkActor* mark : person->marks()) add(mark, id);
     }
     for (vtkActor* marker : markers_->blended()) add(marker);
+    add_bodies(true);
     for (vtkActor* ghost : ghosts_.actors()) add(ghost);
     return all;
   }

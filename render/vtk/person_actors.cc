@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
@@ -124,7 +125,8 @@ Eigen::Affine3d Edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
 }  // namespace
 
 PersonActors::PersonActors()
-    : shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
+    : body_(std::make_unique<BodyActor>()),
+      shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
       held_(Pass::kSolid, PartActor::Light::kLit, kHeldParts),
       ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kGhostMarkParts),
       marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
@@ -145,15 +147,19 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
   const double unseen = !is_full ? kUnseen : has_lines ? 0 : kUnseenInFullDetail;
   const bool has_loads_on_skin =
       look.loads != LoadsShown::kSpheres && look.Shows(ScenePart::kLoads);
-  body_.SetVisible(look.Shows(ScenePart::kBody));
+  const bool is_veil = look.body_opacity < 1;
+  const bool is_new = std::exchange(is_veil_, is_veil) != is_veil;
+  if (is_new) body_ = std::make_unique<BodyActor>(is_veil ? Pass::kVeil : Pass::kSolid);
+  body_->SetVisible(look.Shows(ScenePart::kBody));
+  body_->SetOpacity(look.body_opacity);
   bool is_changed =
-      body_.Update(person, {look.figure, has_loads_on_skin, has_lines}, TintOf(look, is_stale),
-                   {is_full ? 0 : kUnseen * metres_per_pixel, unseen * metres_per_pixel,
-                    metres_per_pixel > kFar},
-                   log, labels);
-  is_changed = UpdateAxes(person, look) || is_changed;
+      body_->Update(person, {look.figure, has_loads_on_skin, has_lines}, TintOf(look, is_stale),
+                    {is_full ? 0 : kUnseen * metres_per_pixel, unseen * metres_per_pixel,
+                     metres_per_pixel > kFar},
+                    log, labels);
+  is_changed = UpdateAxes(person, look) || is_new || is_changed;
   UpdateShadow(person, look);
-  const bool has_spheres = look.loads != LoadsShown::kSkin || body_.limbs() == nullptr;
+  const bool has_spheres = look.loads != LoadsShown::kSkin || body_->limbs() == nullptr;
   UpdateMarks(person, has_spheres, camera, is_full ? 0 : metres_per_pixel);
   forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
@@ -218,7 +224,7 @@ bool PersonActors::UpdateAxes(const PersonState& person, const SceneLook& look) 
 }
 
 void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look) {
-  const skin::Capsules* const limbs = body_.limbs();
+  const skin::Capsules* const limbs = body_->limbs();
   const bool is_shown = look.Shows(ScenePart::kShadows);
   has_floor_shadow_ = is_shown && limbs != nullptr;
   shadow()->SetVisibility(is_shown && limbs == nullptr);
@@ -328,7 +334,7 @@ void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
 
 // Ghosts are where the solids are.
 void PersonActors::AddTo(PictureRegion& region) const {
-  body_.AddTo(region);
+  body_->AddTo(region);
   shadow_.AddTo(region);
   held_.AddTo(region);
   marks_.AddTo(region);

@@ -31,17 +31,19 @@ class PersonActors {
               std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
-  const std::vector<std::string>& problems() const { return body_.problems(); }
+  const std::vector<std::string>& problems() const { return body_->problems(); }
 
   void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
-    body_.AddLines(camera, lines);
+    body_->AddLines(camera, lines);
   }
 
   // In rendering order; the shadows of all people come before the bodies of all people, and so on.
   vtkActor* shadow() { return shadow_.actor(); }
   /// Of a skin, to be blended into the floor; null: shadow() is shown, or none.
   const FloorShadow* floor_shadow() const { return has_floor_shadow_ ? &floor_shadow_ : nullptr; }
-  std::vector<vtkActor*> bodies() { return body_.actors(); }
+  std::vector<vtkActor*> bodies() { return body_->actors(); }
+  /// Whether bodies() are translucent, and rendered after everything else.
+  bool has_veil() const { return is_veil_; }
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
@@ -59,7 +61,8 @@ class PersonActors {
                    double metres_per_pixel);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
-  BodyActor body_;
+  std::unique_ptr<BodyActor> body_;
+  bool is_veil_ = false;
   FloorShadow floor_shadow_;
   bool has_floor_shadow_ = false;
   ForceArrows forces_;

@@ -401,6 +401,7 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
               {"off", LegendChoice::kOff}},
              LegendChoice::kInside),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
+      body_opacity(BodyOpacity()),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
@@ -434,7 +435,7 @@ void ViewOptions::List(options::OptionList& option) {
          "none");
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
-  ListPeopleLook(option, figure, style, loads);
+  ListPeopleLook(option, figure, style, loads, body_opacity);
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
   option("floor", floor, "whether the floor is drawn");
@@ -525,7 +526,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
     case LegendChoice::kInside: break;
   }
   render::SceneLook& look = spec.look;
-  LoadPeopleLook(options.figure, options.style, options.loads).ApplyTo(look);
+  LoadPeopleLook(options.figure, options.style, options.loads, options.body_opacity).ApplyTo(look);
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;

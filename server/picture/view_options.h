@@ -168,6 +168,7 @@ struct ViewOptions {
   FigureValue figure;
   StyleValue style;
   LoadsShownValue loads;
+  options::Number body_opacity;
   options::Choice<render::Theme> theme;
   BackgroundValue background;
   options::Switch floor;

@@ -67,7 +67,9 @@ TEST(Legend, ListsOnlyWhatThePictureShowsWithItsColours) {
   frames->ns = kNamespaceOfFrames;
   marker->ns = "goal";
   marker->color = {0, 1, 0, 1};
-  state.markers = {marker, frames};
+  const auto red = std::make_shared<SceneMarker>(*marker);
+  red->color = {1, 0, 0, 1};
+  state.markers = {marker, red, frames};
   const LegendContent content = LegendOf(state, look);
   EXPECT_THAT(NamesOf(content), IsSupersetOf({"path: right hand", "path: centre of mass", "N-pose",
                                               "robot arm", "tracked object", "marker goal"}));

@@ -13,7 +13,7 @@ const palette = {
 };
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
 const marks = { depths: Array(22).fill(0.1), com: 0.034, com_depth: 0.068, com_ring: 0.062, com_line: 0.0035, cop_edge: 0.046, cop: 0.038 };
-const modelOf = (character, revision = 1) => ({ character, revision, ghost_opacity: null, skin: null, links: [{ visuals: [box] }], marks });
+const modelOf = (character, revision = 1) => ({ character, revision, ghost_opacity: null, opacity: 1, skin: null, links: [{ visuals: [box] }], marks });
 const personOf = (character) => ({ character, links: [{ position: [0, 0, 1], quaternion: [0, 0, 0, 1] }],
   loads: [], support: [], feet: [], held: [], com: null, cop: null });
 const stateOf = (seconds, ...characters) =>
@@ -93,6 +93,16 @@ test('bodies of style clay have its colour, and those without live data that of 
   assert.deepEqual(colorOf(clay, false), toColor(palette.stale_body));
   assert.deepEqual(colorOf(matte, true), toColor(palette.body));
   assert.deepEqual(colorOf({ ...matte, style: 'line' }, true), toColor(palette.body), 'the page draws no lines');
+});
+
+test('a translucent body lets through what is in it, and keeps its colour', () => {
+  const people = new People(() => {});
+  people.setModels([{ ...modelOf(0), opacity: 0.5 }], palette, makeMarkerMaterials(palette));
+  people.update(stateOf(100, 0), true);
+  const { material } = people.group.children[0].children[0].children[0].children[0];
+  assert.equal(material.transparent, true);
+  assert.equal(material.opacity, 0.5);
+  assert.deepEqual(material.color, toColor(palette.body));
 });
 
 /** The spheres that are drawn: centre and radius. */
