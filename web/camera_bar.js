@@ -1,5 +1,6 @@
 // The buttons and keys of the named cameras. They turn the page's own view; without WebGL, the server's picture has its
 // place, and they choose the camera of that, which is the same for all who see it.
+import { OWN_CAMERA } from './cameras.js';
 import { cameraLabel, shortCameraLabel } from './format.js';
 import { placeOf } from './orbit.js';
 
@@ -36,7 +37,13 @@ export class CameraBar {
   /** For the address; null: as the page begins. */
   get text() {
     if (this.scene === null || this.#cameras.length === 0) return this.linked;
-    return this.scene.placeText ?? (this.#name === START_VIEW ? null : this.#name);
+    return this.scene.placeText ?? (this.#name === this.#start?.name ? null : this.#name);
+  }
+
+  /** With which the page begins. */
+  get #start() {
+    const named = (/** @type {string} */ wanted) => this.#cameras.find(({ name }) => name === wanted);
+    return named(OWN_CAMERA) ?? named(START_VIEW) ?? this.#cameras[0];
   }
 
   /** Whether the server has told them. */
@@ -58,7 +65,7 @@ export class CameraBar {
   /** @param {import('./scene.js').Scene} scene
    *  @param {Framing} framing */
   #begin(scene, framing) {
-    const start = this.#cameras.find(({ name }) => name === START_VIEW) ?? this.#cameras[0];
+    const start = this.#start;
     const named = this.#cameras.find(({ name }) => name === this.linked), place = placeOf(this.linked ?? '');
     if (named ?? start) this.#choose(named ?? start);
     if (place !== null && start) scene.setPlace(place, start, framing);
@@ -72,7 +79,8 @@ export class CameraBar {
 
   /** @param {CameraView} view */
   #button(view) {
-    const button = document.createElement('button'), label = cameraLabel(view.name);
+    const button = document.createElement('button');
+    const label = view.name === OWN_CAMERA ? 'own: the camera that the server was started with' : cameraLabel(view.name);
     button.type = 'button';
     button.textContent = shortCameraLabel(view.name);
     button.title = label;

@@ -8,6 +8,9 @@
 /** Tilt of a view straight down, as a share of its distance: an orbit has no "up" exactly at its pole. */
 const POLE_TILT = 1e-3;
 
+/** The name of the camera that the server was started with, if that is none of the others. */
+export const OWN_CAMERA = 'own';
+
 const add = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v + b[i]);
 const subtract = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v - b[i]);
 const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) => v * k);
@@ -52,6 +55,36 @@ export function axesOf(view, heading) {
   if (isPole) offset = subtract(offset, scale(viewUp, POLE_TILT * length(offset)));
   const forward = unit(scale(offset, -1)), right = unit(cross(forward, viewUp));
   return { right, up: cross(right, forward), forward };
+}
+
+/** @param {number[]} a
+ *  @param {number[]} quaternion  x y z w */
+function rotated(a, [x, y, z, w]) {
+  const axis = [x, y, z], t = scale(cross(axis, a), 2);
+  return add(add(a, scale(t, w)), cross(axis, t));
+}
+
+/** Of the server's own camera, which stands, or goes with a frame of TF.
+ *  @param {CameraView} view
+ *  @param {import('./state_codec.js').Pose|null} base  null: it stands, or the frame is not known yet
+ *  @param {{least: number, most: number}} range  of the distance to the target, m
+ *  @returns {Aim & {up: number[]}} */
+export function ownAim(view, base, { least, most }) {
+  const toWorld = (/** @type {number[]} */ a) => {
+    if (base === null || view.turn === 'none') return a;
+    if (view.turn === 'pose') return rotated(a, base.quaternion);
+    const [x, y] = rotated([1, 0, 0], base.quaternion);
+    return turned(a, Math.atan2(y, x));
+  };
+  const position = add(base?.position ?? [0, 0, 0], toWorld(view.position));
+  const ahead = toWorld(subtract(view.target, view.position));
+  const distance = Math.max(least, Math.min(most, length(ahead)));
+  return {
+    position,
+    target: add(position, scale(unit(ahead), distance)),
+    up: toWorld(view.up),
+    fovDegrees: (view.vertical_fov_rad * 180) / Math.PI,
+  };
 }
 
 /** Position and target of the camera that shows `view` from that place.

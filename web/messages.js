@@ -207,7 +207,7 @@ const readMarkSizes = object({
   depths: numbers(), com: number, com_depth: number, com_ring: number, com_line: number, cop_edge: number, cop: number,
 });
 const readPersonModel = object({
-  character: number, revision: number, ghost_opacity: numberOrNull, skin: orNull(string),
+  character: number, revision: number, ghost_opacity: numberOrNull, opacity: number, skin: orNull(string),
   links: listOf(object({ visuals: listOf(readVisual) })), outline: listOf(readOutlinePoint),
   marks: readMarkSizes,
 });
@@ -258,12 +258,13 @@ export const readSeries = object({
 // /api/v1/cameras
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
+  turn: oneOf(['none', 'heading', 'pose']),
 });
 const readFraming = object({
   min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number, height_m: number,
 });
 export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
-/** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin
+/** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin; "own": where the server was told
  *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md
  *  @typedef {ReturnType<typeof readCameras>} Cameras */
 

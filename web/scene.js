@@ -2,6 +2,7 @@
 // World frame: z up, metres.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { OWN_CAMERA, ownAim } from './cameras.js';
 import { watchFreeArea } from './free_area.js';
 import { makeMarkerMaterials } from './human.js';
 import { LiveCamera } from './live_camera.js';
@@ -44,6 +45,7 @@ export class Scene {
   #stillness = matchMedia('(prefers-reduced-motion: reduce)');  // the view then goes at once where it is to be
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
   #framing = /** @type {import('./messages.js').Framing|null} */ (null);
+  #cameraBase = /** @type {import('./state_codec.js').Pose|null} */ (null);
   /** @type {{character: number, position: number[]}[]} */ #heads = [];
   /** @type {import('./orbit.js').Place|null} */ #placeWanted = null;  // until the people are there
   #isSeen = true;
@@ -168,8 +170,11 @@ export class Scene {
     this.#trails.update(state);
     this.#objects?.update(state.objects, isLive);
     this.#surroundings.place(state.robots);
+    this.#cameraBase = state.cameraBase;
     if (state.people.length > 0) {
       this.#middle = this.#liveCamera.setState(state, this.#framing?.reach_m ?? Infinity);
+      this.#aim();
+    } else if (this.#isOwn) {
       this.#aim();
     }
     this.#heads = state.people.filter(({ links }) => links.length > HEAD)
@@ -212,8 +217,14 @@ export class Scene {
     this.#move({ position: position.map((v, i) => v + this.#followed[i]), target: target.map((v, i) => v + this.#followed[i]) });
   }
 
+  /** Whether the view is that of the server's own camera: it does not go with the people. */
+  get #isOwn() {
+    return this.#view?.name === OWN_CAMERA;
+  }
+
   /** The viewer moves the camera by hand: it is no named view any more. */
   #leaveView() {
+    this.#camera.up.set(0, 0, 1);
     this.#view = null;
     this.#placeWanted = null;
     this.events.onOrbit();
@@ -291,12 +302,14 @@ export class Scene {
   /** Moves the camera to the named view, if there is one. */
   #aim() {
     if (this.#view === null || this.#framing === null) return;
-    const { position, target, fovDegrees } = this.#liveCamera.aim(this.#view, this.#followed);
+    const { position, target, up, fovDegrees } = this.#isOwn ? ownAim(this.#view, this.#cameraBase, DISTANCES)
+      : { ...this.#liveCamera.aim(this.#view, this.#followed), up: [0, 0, 1] };
     if (this.#camera.fov !== fovDegrees) {
       this.#camera.fov = fovDegrees;
       this.#objects?.setFieldOfView(fovDegrees);
       this.#camera.updateProjectionMatrix();
     }
+    this.#camera.up.fromArray(up);
     this.#camera.position.fromArray(position);
     this.controls.target.fromArray(target);
     this.controls.update();
@@ -315,6 +328,7 @@ export class Scene {
       return this.#aim();
     }
     this.#followed = this.#followed.map((v, i) => v + step[i]);
+    if (this.#isOwn) return this.#placeFloor();
     const shift = new THREE.Vector3().fromArray(step);
     this.#camera.position.add(shift);
     this.controls.target.add(shift);

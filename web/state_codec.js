@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 8;
+export const VERSION = 9;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
@@ -32,10 +32,10 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number,
  *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[],
- *    ghosts: Person[], robots: Pose[][]}} State
+ *    ghosts: Person[], robots: Pose[][], cameraBase: Pose|null}} State
  *    ghosts: reference poses; robots: those that move, the links that are drawn of each; not finite: nowhere;
  *    arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by which named views are turned about
- *    z, rad;
+ *    z, rad; cameraBase: of the frame that the server's own camera goes with;
  *    madeMicros: its moment in the server's history, oldestMicros, oldestNumber: of the first state in it, 0: none
  */
 
@@ -98,13 +98,14 @@ class Bytes {
  *  @returns {State} */
 export function decodeState(buffer) {
   const bytes = new Bytes(buffer);
-  const { peopleCount, objectCount, ghostCount, robotCount, ...header } = readStateHeader(bytes);
+  const { peopleCount, objectCount, ghostCount, robotCount, hasCameraBase, ...header } = readStateHeader(bytes);
   const people = bytes.list(peopleCount, readPerson);
   const objects = bytes.list(objectCount, readObject);
   const ghosts = bytes.list(ghostCount, readPerson);
   const robots = bytes.list(robotCount, readRobot);
+  const cameraBase = hasCameraBase ? readPose(bytes) : null;
   bytes.end();
-  return { ...header, people, objects, ghosts, robots };
+  return { ...header, people, objects, ghosts, robots, cameraBase };
 }
 
 /** @param {ArrayBuffer} buffer
@@ -174,11 +175,12 @@ function readStateHeader(bytes) {
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
   const robotCount = bytes.u8();
-  bytes.skip(3);
+  const hasCameraBase = bytes.u8() !== 0;
+  bytes.skip(2);
   const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, ghostCount, robotCount, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
+    viewers, floor, objectCount, ghostCount, robotCount, hasCameraBase, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
   };
 }
 

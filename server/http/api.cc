@@ -301,6 +301,7 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
                       {"name", person.name},
                       {"revision", person.model->revision},
                       {"ghost_opacity", ghost_opacity ? json(*ghost_opacity) : json()},
+                      {"opacity", ghost_opacity.value_or(look.body_opacity)},
                       {"height_m", person.model->human.skeleton.height},
                       {"marks", MarksToJson(person.model->human.skeleton.height)},
                       {"mass_kg", body.mass_kg},
@@ -347,7 +348,8 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                     {"position", ToJson(camera.position)},
                     {"target", ToJson(camera.target)},
                     {"up", ToJson(camera.up)},
-                    {"vertical_fov_rad", camera.vertical_fov_rad}});
+                    {"vertical_fov_rad", camera.vertical_fov_rad},
+                    {"turn", camera.turn}});
   }
   return Text({{"cameras", std::move(list)},
                {"framing",

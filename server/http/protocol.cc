@@ -198,7 +198,8 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   }
   robots.resize(CountByte(robots.size()));
   out.Put(static_cast<std::uint8_t>(robots.size()));
-  for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
+  out.Put(static_cast<std::uint8_t>(state.camera_base ? 1 : 0));
+  for (int i = 0; i < 2; ++i) out.Put(std::uint8_t{0});
   out.PutDouble(Micros(state.made_nanos));
   const history::Extent kept = moment.kept.value_or(history::Extent{});
   out.PutDouble(Micros(kept.first_nanos));
@@ -208,6 +209,7 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person);
   for (const RobotState* const robot : robots) PutRobot(out, *robot);
+  if (state.camera_base) PutPose(out, *state.camera_base);
 }
 
 }  // namespace

@@ -50,14 +50,20 @@ using GetFormerSurroundings = std::function<std::shared_ptr<const Surroundings>(
 using GetCameraFile = std::function<std::shared_ptr<const std::string>(
     std::size_t number, const std::shared_ptr<const CameraImage>& image)>;
 
+/// The name of the camera that the server was started with, where that is none of the named ones.
+inline constexpr char kOwnCamera[] = "own";
+
 /// A named camera for a person who stands at the world's origin. World frame, metres. The page uses
 /// these numbers for its 3-D view, so that a name means the same view everywhere.
 struct CameraView {
+  /// kOwnCamera: it stands in the world, wherever people are, or goes with SceneState::camera_base.
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   double vertical_fov_rad = 0.52;
+  /// How kOwnCamera is turned with the base: "none", "heading" (about the vertical) or "pose".
+  std::string turn = "none";
 };
 
 /// A point whose recent path the page draws.
@@ -72,6 +78,7 @@ struct PageLook {
   bool draws_skins = true;        // of people with the built-in surface; else parts
   std::string loads = "spheres";  // where load classes are shown: or "skin", "both"
   std::string style = "matte";    // or "clay", "line"
+  double body_opacity = 1;        // 0..1
   std::vector<PageTrail> trails = {};
   double trail_secs = 2;
 };

@@ -34,6 +34,38 @@ test('a former moment covers the same pixels on the page and in a picture', asyn
   await close();
 });
 
+test('a translucent body seen by the camera that the server was given covers the same pixels', async () => {
+  const file = await record('lift', 1, []), camera = ['--camera', '1.2,2,1.6:0,0,0.9:0.2,0,1', '--fov', '45'];
+  const body = ['--body_opacity', '0.6', '--style', 'clay'];  // a translucent black shoe cannot be told from the ground
+  const site = await serve(file, ['--stop_at', '0.5', '--pictures', 'off', ...camera, ...body]);
+  const { page, covered, size, close } = await whatCovers(site, 'own', SKIN, { 'status-word': 'Recording' });
+  assert.deepEqual(await page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera)), ['own']);
+  await saveScreenshot(page, 'same_own_camera');
+  const rest = `shadows,${MARKS}`;
+  const draw = (hidden) => serverPixels(file, camera, size, [...PLAIN, hidden, ...body], 0.5);
+  const withLoads = mask(await draw(rest), await draw(rest.replace('loads,', '')));
+  const { share, either } = overlap(covered, mask(await draw(rest), await draw(`body,${rest}`)), grown(withLoads, size));
+  assert.ok(either > 0.01 * covered.length, `${either} pixels`);
+  assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
+  await close();
+  await site.stop();
+});
+
+test('the page begins with the camera that the server was given, and comes back to it', async () => {
+  const site = await serve(await record('lift', 1, []), ['--loop', '--pictures', 'off', '--camera', '1.5,2.5,2.4:0,0,0.8']);
+  const { page, close } = await openPage(site.url);
+  const pressed = () => page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));
+  await page.locator('#cameras button[data-camera="own"][aria-pressed="true"]').waitFor(LONG);
+  await page.click('#cameras [data-camera="front"]');
+  assert.deepEqual(await pressed(), ['front']);
+  await page.waitForFunction(() => location.href.includes('camera=front'), null, LONG);
+  await page.click('#cameras [data-camera="own"]');
+  assert.deepEqual(await pressed(), ['own']);
+  await page.waitForFunction(() => !location.href.includes('camera='), null, LONG);
+  await close();
+  await site.stop();
+});
+
 const START_MICROS = 3600e6;  // of the clock of a server that stops at a moment
 const SKIN = { route: '**/api/v1/skin/**', address: 'api/v1/skin' };
 const POINTS = ['com', 'cop', 'support', 'forces', 'loads', 'hand_loads'];

@@ -13,6 +13,7 @@
 #include "core/system/clocks.h"
 #include "render/video.h"
 #include "server/app/marks_option.h"
+#include "server/http/server.h"
 #include "server/picture/render_planner.h"
 
 namespace kinescope::app {
@@ -61,7 +62,7 @@ void ClipMaker::Make(const ClipMakerOrder& order, Workshop::Progress& progress) 
   const auto [from, to] = order.span;
   if (!Await(to, progress)) return;
   ViewOptions view = settings_.view;
-  view.camera.Parse(order.camera);
+  view.camera.Parse(order.camera == http::kOwnCamera ? settings_.own_camera : order.camera);
   view.title.Parse(order.title);
   RenderPlanner planner(view, SceneAdditions(view, settings_.backend, settings_.scene), Fit::kNow);
   const marks::MarkTrack track = TrackOfThisRun();

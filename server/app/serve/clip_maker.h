@@ -19,7 +19,8 @@
 namespace kinescope::app {
 
 struct ClipSettings {
-  ViewOptions view;  // its camera and title are those of the order
+  ViewOptions view;        // its camera and title are those of the order
+  std::string own_camera;  // as --camera has it: http::kOwnCamera
   BackendOptions backend;
   SceneOptions scene;
 };

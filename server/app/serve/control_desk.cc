@@ -212,7 +212,9 @@ ControlDesk::Result ControlDesk::Clip(const http::ClipOrder& order, http::Role /
   if (parts_.clips == nullptr) return RefuseOrder(503, parts_.why_no_clips);
   const auto& cameras = render::CameraNames();
   const std::string camera = order.camera.empty() ? camera_ : order.camera;
-  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end() && !order.camera.empty()) {
+  const bool is_known = order.camera.empty() || camera == parts_.camera ||
+                        std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
+  if (!is_known) {
     return RefuseOrder(400, "camera " + camera + ": unknown camera");
   }
   const auto span = SpanOf(order);

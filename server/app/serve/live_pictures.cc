@@ -31,10 +31,11 @@ LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory 
                            const std::shared_ptr<const SceneState>& first,
                            Latest<http::Picture>& pictures)
     : moves_(settings.moves),
+      own_(settings.camera.name().empty() ? std::optional(settings.camera) : std::nullopt),
       trails_(settings.trails),
       history_(settings.history),
       pictures_(pictures),
-      camera_(settings.camera.name()),
+      camera_(own_ ? http::kOwnCamera : settings.camera.name()),
       live_({"picture", settings.width, settings.height, settings.rate_hz, settings.people,
              settings.trails},
             settings.camera, make_renderer, first,
@@ -56,10 +57,18 @@ void LivePictures::Publish(const render::Image& image, const SceneState& state) 
   pictures_.Publish(std::move(picture));
 }
 
+std::optional<CameraController> LivePictures::Named(const std::string& camera,
+                                                    const CameraOptions& moves) const {
+  if (camera == http::kOwnCamera) return own_;
+  if (!IsNamedCamera(camera)) return std::nullopt;
+  return CameraController(ParseCamera(camera), moves);
+}
+
 bool LivePictures::SetCamera(const std::string& camera) {
-  if (!IsNamedCamera(camera)) return false;
+  auto named = Named(camera, moves_);
+  if (!named) return false;
   // The selected camera is not started again.
-  if (camera != camera_) live_.SetCamera(CameraController(ParseCamera(camera), moves_));
+  if (camera != camera_) live_.SetCamera(*std::move(named));
   camera_ = camera;
   return true;
 }
@@ -79,9 +88,9 @@ std::future<render::Image> LivePictures::Order(const http::SnapshotRequest& requ
   }
   std::optional<CameraController> named;
   if (!camera.empty()) {
-    if (!IsNamedCamera(camera)) throw UsageError("camera=" + camera + ": unknown camera");
     // A former moment has lens and framing of the live picture in whose place it is shown.
-    named.emplace(ParseCamera(camera), former ? moves_ : CameraOptions());
+    named = Named(camera, former ? moves_ : CameraOptions());
+    if (!named) throw UsageError("camera=" + camera + ": unknown camera");
   }
   if (named) return snapshots_.Request(view, std::move(named), former);
   return snapshots_.RequestAimed(

@@ -66,7 +66,12 @@ class LivePictures : public http::PictureFeed {
   void Publish(const render::Image& image, const SceneState& state);
   std::vector<render::Trail> TrailsUpTo(const SceneState& state) const;
 
+  /// Of a selected name; null: there is none of that name.
+  std::optional<CameraController> Named(const std::string& camera,
+                                        const CameraOptions& moves) const;
+
   const CameraOptions moves_;
+  const std::optional<CameraController> own_;  // http::kOwnCamera
   const TrailSettings trails_;
   const history::History* const history_;
   Latest<http::Picture>& pictures_;

@@ -25,12 +25,29 @@
 namespace kinescope::app {
 namespace {
 
-std::vector<http::CameraView> CameraViews() {
+std::string TurnName(CameraBase::Turn turn) {
+  switch (turn) {
+    case CameraBase::Turn::kHeading: return "heading";
+    case CameraBase::Turn::kFull: return "pose";
+    case CameraBase::Turn::kNone: break;
+  }
+  return "none";
+}
+
+http::CameraView OwnCamera(const render::Camera& place, const CameraOptions& moves) {
+  const double fov_rad = moves.fov ? *moves.fov * M_PI / 180 : place.vertical_fov_rad;
+  return {http::kOwnCamera, place.position, place.target,
+          place.up,         fov_rad,        TurnName(moves.camera_tf->turn)};
+}
+
+std::vector<http::CameraView> CameraViews(const ServeOptions& options) {
   std::vector<http::CameraView> views;
   for (const std::string& name : render::CameraNames()) {
     const render::Camera camera = render::NamedCamera(name, SceneState{});
     views.push_back({name, camera.position, camera.target, camera.up, camera.vertical_fov_rad});
   }
+  const CameraChoice& given = options.camera->front();
+  if (given.place) views.push_back(OwnCamera(*given.place, options.camera_moves));
   return views;
 }
 
@@ -67,12 +84,17 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.base_path = *options.base_path;
   config.trusted_proxies = TrustedProxies(*options.trusted_proxies);
   config.web_root = FindResource("web");
-  config.cameras = CameraViews();
+  config.cameras = CameraViews(options);
   config.framing = FramingOfCameras();
-  config.camera = options.camera->front().text;
+  config.camera =
+      AreAllNamed(*options.camera) ? options.camera->front().text : std::string(http::kOwnCamera);
   const render::Figure figure = options.figure.Load();
-  config.look = {figure.kind == render::Figure::kSkin, options.loads_shown.ToText(),
-                 options.style.ToText(), TrailsOf(options.trails), *options.trails.secs};
+  config.look = {figure.kind == render::Figure::kSkin,
+                 options.loads_shown.ToText(),
+                 options.style.ToText(),
+                 *options.body_opacity,
+                 TrailsOf(options.trails),
+                 *options.trails.secs};
   config.own_skin = figure.own_skin;
   return config;
 }
@@ -89,10 +111,12 @@ ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
   const int width = options.picture_size->width / 2 * 2,
             height = options.picture_size->height / 2 * 2;
   clips.view.size.Parse(fmt::format("{}x{}", width, height));
+  clips.own_camera = options.camera->front().text;
   clips.view.moves = options.camera_moves;
   clips.view.figure = options.figure;
   clips.view.style = options.style;
   clips.view.loads = options.loads_shown;
+  clips.view.body_opacity = options.body_opacity;
   clips.view.trails = options.trails;
   clips.view.robot = options.robot.WithoutMoving();
   clips.view.ghost = options.ghost;
@@ -124,7 +148,8 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.width = options.picture_size->width;
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
-  pictures.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
+  pictures.people =
+      LoadPeopleLook(options.figure, options.style, options.loads_shown, options.body_opacity);
   pictures.trails = options.trails.Settings();
   return pictures;
 }
@@ -145,7 +170,8 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.width = options.ros_view_size->width;
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
-  settings.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
+  settings.people =
+      LoadPeopleLook(options.figure, options.style, options.loads_shown, options.body_opacity);
   settings.trails = options.trails.Settings();
   return settings;
 }

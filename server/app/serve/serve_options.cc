@@ -76,6 +76,7 @@ ServeOptions::ServeOptions()
           "up to nine names with commas between, each of 1 to 40 characters with a letter or digit",
           AreMarkNames),
       stop_at(options::Number(0, {0, kLatestSecs, "s"})),
+      body_opacity(BodyOpacity()),
       ghost_opacity(GhostOpacity()),
       pictures(true),
       camera(1),
@@ -172,7 +173,7 @@ void ServeOptions::List(options::OptionList& option) {
   option.HasNoEffect("ros", "with --stop_at",
                      [this] { return bool(stop_at) && *ros != ros_bridge::RosMode::kOff; });
   option.Group("Page and pictures");
-  ListPeopleLook(option, figure, style, loads_shown);
+  ListPeopleLook(option, figure, style, loads_shown, body_opacity);
   trails.List(option);
   ListGhost(option, ghost, ghost_opacity);
   option("robot", robot, kRobotHelp);
@@ -210,9 +211,14 @@ void ServeOptions::List(options::OptionList& option) {
   option.HasNoEffect("camera_tf", "with a named camera", [this] {
     return AreAllNamed(*camera) && (!ros_view_camera || AreAllNamed(*ros_view_camera));
   });
-  for (const char* name : {"camera", "camera_tf", "projection", "fov", "orbit", "follow", "fit",
-                           "picture_size", "picture_rate_hz", "backend", "draw_limit_secs",
-                           "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+  // The page begins with a place, without pictures, too.
+  for (const char* name : {"camera", "camera_tf", "fov"}) {
+    option.HasNoEffect(name, "with --pictures=off, unless --camera is a place",
+                       [this] { return !*pictures && AreAllNamed(*camera); });
+  }
+  for (const char* name :
+       {"projection", "orbit", "follow", "fit", "picture_size", "picture_rate_hz", "backend",
+        "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
     option.HasNoEffect(name, "with --pictures=off", [this] { return !*pictures; });
   }
 }

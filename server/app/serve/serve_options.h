@@ -58,6 +58,7 @@ struct ServeOptions {
   FigureValue figure;
   StyleValue style;
   LoadsShownValue loads_shown;  // --loads
+  options::Number body_opacity;
   TrailOptions trails;
   GhostValue ghost;
   options::Number ghost_opacity;

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { axesOf, cameraAt, framedPeople, middleOf } from '../../../web/cameras.js';
+import { axesOf, cameraAt, framedPeople, middleOf, ownAim } from '../../../web/cameras.js';
 
 const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
 const top = { name: 'top', position: [0, 0, 5.6], target: [0, 0, 1], up: [1, 0, 0], vertical_fov_rad: 0.5 };
@@ -35,6 +35,21 @@ test('the camera above the person leans slightly, so that the up direction is de
   assert.ok(forward[0] > 0 && forward[0] < 0.002, 'it stands a trace behind');
   const turned = axesOf(top, Math.PI / 2);
   assert.ok(turned.forward[1] > 0.0005 && Math.abs(turned.forward[0]) < 1e-9, 'the person faces up in the picture');
+});
+
+test('the own camera stands, or goes with its frame and turns as it says', () => {
+  const own = { name: 'own', position: [2, 0, 1], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5, turn: 'none' };
+  const range = { least: 0.5, most: 10 };
+  near(ownAim(own, null, range).position, [2, 0, 1]);
+  near(ownAim(own, null, range).target, [0, 0, 1]);
+  const half = Math.SQRT1_2, about = (axis) => ({ position: [5, 0, 0], quaternion: [...axis.map((v) => v * half), half] });
+  const turnedAboutZ = about([0, 0, 1]), tipped = about([1, 0, 0]);  // by 90 degrees
+  near(ownAim(own, turnedAboutZ, range).position, [7, 0, 1]);
+  near(ownAim({ ...own, turn: 'heading' }, turnedAboutZ, range).position, [5, 2, 1]);
+  near(ownAim({ ...own, turn: 'heading' }, tipped, range).position, [7, 0, 1]);
+  near(ownAim({ ...own, turn: 'pose' }, tipped, range).position, [7, -1, 0]);
+  near(ownAim({ ...own, turn: 'pose' }, tipped, range).up, [0, -1, 0]);
+  near(ownAim({ ...own, target: [-98, 0, 1] }, null, range).target, [-8, 0, 1]);
 });
 
 test('the ground point is the middle of the people, without one who is far', () => {

@@ -22,7 +22,7 @@ const palette = {
 };
 const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
   mesh: '/api/v1/mesh/0/1/0' };
-const model = { people: [{ character: 0, revision: 1, ghost_opacity: null, skin: '/api/v1/skin/0/1', links: [{ visuals: [visual] }],
+const model = { people: [{ character: 0, revision: 1, ghost_opacity: null, opacity: 1, skin: '/api/v1/skin/0/1', links: [{ visuals: [visual] }],
     outline: [{ link: 0, position: [0, 0, 0.1], radius: 0.12 }],
     marks: { depths: [0.1], com: 0.034, com_depth: 0.068, com_ring: 0.062, com_line: 0.0035, cop_edge: 0.046, cop: 0.038 } }],
   joints: [{ name: 'l5_s1', label: 'L5/S1' }], class_limits: [0.3, 0.6], compression_limits_n: [3400, 6400], look: { loads: 'both', style: 'clay', trails: [{ segment: -1, name: 'centre of mass', color: rgb }], trail_secs: 2 },
@@ -91,7 +91,7 @@ test('a model without a colour for every class is rejected', () => {
 
 test('cameras are read as numbers and rejected if invalid', () => {
   const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3, reach_m: 50, height_m: 2.5 };
-  const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
+  const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5, turn: 'none' };
   assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/v1/cameras'),
     { cameras: [front], framing, live: 'front' });
   assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], framing, live: 'front' }, 'api/v1/cameras'),

@@ -1,7 +1,7 @@
 // Reads bytes that the C++ encoder has just written (page_fixture_server describe).
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { decodePast, decodePicture, decodeState, KIND, messageKind } from '../../../web/state_codec.js';
+import { decodePast, decodePicture, decodeState, KIND, messageKind, VERSION } from '../../../web/state_codec.js';
 import { legendWords } from '../../../web/load_list.js';
 import { stateMessage as state, toBuffer, told } from './told_by_server.mjs';
 
@@ -22,7 +22,7 @@ function assertClose(actual, expected, path = 'state') {
   }
 }
 
-test('a state of two people, gloves, an object and a robot is decoded as the server encoded it', () => {
+test('a state of two people, gloves, an object, a robot and a frame of the camera is decoded as the server encoded it', () => {
   assert.equal(messageKind(state), KIND.state);
   assertClose(decodeState(state), told.state);
 });
@@ -78,8 +78,8 @@ test('a person without links is rejected', () => {
 
 test('the error for another protocol version contains the instruction to reload', () => {
   const other = new Uint8Array(state.slice(0));
-  other[1] = 9;
-  assert.throws(() => messageKind(other.buffer), /version 9.*reload/);
+  other[1] = VERSION + 1;
+  assert.throws(() => messageKind(other.buffer), new RegExp(`version ${VERSION + 1}.*reload`));
   assert.throws(() => messageKind(new ArrayBuffer(1)), /truncated/);
 });
 

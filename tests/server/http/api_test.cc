@@ -214,7 +214,7 @@ TEST(ModelJson, HasTheLookThatTheServerWasStartedWith) {
       json::parse(ModelJson(nullptr, {}))["look"],
       (json{
           {"loads", "spheres"}, {"style", "matte"}, {"trails", json::array()}, {"trail_secs", 2}}));
-  PageLook look{true, "both", "clay"};
+  PageLook look{true, "both", "clay", 0.5};
   look.trails = {{-1, {0.5, 0.25, 0}, "centre of mass"}};
   look.trail_secs = 6;
   EXPECT_EQ(
@@ -223,6 +223,18 @@ TEST(ModelJson, HasTheLookThatTheServerWasStartedWith) {
             {"style", "clay"},
             {"trails", {{{"segment", -1}, {"name", "centre of mass"}, {"color", {0.5, 0.25, 0}}}}},
             {"trail_secs", 6}}));
+}
+
+TEST(ModelJson, HasTheOpacityOfBodiesAndOfReferencePoses) {
+  SceneState state = Scene();
+  state.ghosts = {{state.people[0], 0.25, "N-pose"}};
+  PageLook look;
+  look.body_opacity = 0.5;
+  const json people = json::parse(ModelJson(&state, look))["people"];
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0]["opacity"], 0.5);
+  EXPECT_TRUE(people[0]["ghost_opacity"].is_null());
+  EXPECT_EQ(people[1]["opacity"], 0.25);
 }
 
 TEST(ModelJson, NamesAllJoints) {
@@ -281,6 +293,7 @@ TEST(CamerasJson, ContainsTheParametersOfEveryView) {
   ASSERT_EQ(told["cameras"].size(), 7u);
   EXPECT_EQ(told["cameras"][0]["name"], "front");
   EXPECT_GT(told["cameras"][0]["position"][0], 4.0) << "front is seen from +x";
+  EXPECT_EQ(told["cameras"][0]["turn"], "none");
   EXPECT_EQ(told["framing"], (json{{"min_width_m", 1.5},
                                    {"margin_m", 0.5},
                                    {"narrowest_aspect", 1.25},

@@ -250,6 +250,7 @@ json Describe() {
   robot.world_from_link = {
       Eigen::Isometry3d(Eigen::Translation3d(3, 2, 1) * Eigen::Quaterniond(0.8, 0.36, -0.48, 0))};
   state.robots = {robot};
+  state.camera_base = urdf::Pose{{4, 5, 6}, Eigen::Quaterniond(0.8, 0, 0, 0.6)};
   json people = json::array();
   for (const PersonState& person : state.people) {
     json links = json::array(), loads = json::array();
@@ -338,7 +339,8 @@ json Describe() {
             {"people", people},
             {"objects", objects},
             {"ghosts", json::array()},
-            {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {0.36, -0.48, 0, 0.8}}}}}}}},
+            {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {0.36, -0.48, 0, 0.8}}}}}},
+            {"cameraBase", {{"position", {4, 5, 6}}, {"quaternion", {0, 0, 0.6, 0.8}}}}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},

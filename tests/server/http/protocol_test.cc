@@ -229,6 +229,20 @@ TEST(StateMessage, HasTheDrawnLinksOfRobotsThatMoveAtItsEnd) {
   EXPECT_EQ(EncodeState(state, {0, 1, {}}).size(), without + 255 * size);
 }
 
+TEST(StateMessage, HasTheFrameThatTheOwnCameraGoesWithAtItsEnd) {
+  SceneState state = Scene();
+  const std::size_t without = EncodeState(state, {0, 1, {}}).size();
+  EXPECT_EQ(EncodeState(state, {0, 1, {}})[69], 0);
+  state.camera_base = urdf::Pose{Eigen::Vector3d(1, -2, 0.5), Eigen::Quaterniond(0.6, 0, 0, 0.8)};
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
+  EXPECT_EQ(bytes[69], 1);
+  ASSERT_EQ(bytes.size(), without + kLinkBytes);
+  const Bytes last(bytes.end() - static_cast<std::ptrdiff_t>(kLinkBytes), bytes.end());
+  Reader in(last);
+  EXPECT_EQ(in.GetVector(), Eigen::Vector3d(1, -2, 0.5));
+  for (const float part : {0.0F, 0.0F, 0.8F, 0.6F}) EXPECT_EQ(in.Get<float>(), part);
+}
+
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {
   EXPECT_LT(EncodeState(Scene(), {0, 1, {}}).size(), 1500u);
 }

@@ -243,5 +243,16 @@ TEST_F(LivePicturesTest, UsesTheLiveOptionsForSnapshotsWithoutACamera) {
   EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), PngBy("front", moves)) << "they stay";
 }
 
+TEST_F(LivePicturesTest, ComeBackToTheCameraThatWasPlaced) {
+  const std::string place = "3,1,2:0,0,1";
+  Start(place);
+  EXPECT_TRUE(live_->SetCamera("top"));
+  EXPECT_EQ(live_->SnapshotPng({"own", 64, 48}), PngBy(place, {}));
+  EXPECT_TRUE(live_->SetCamera("own"));
+  EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), PngBy(place, {}));
+  Start("front");
+  EXPECT_FALSE(live_->SetCamera("own")) << "there is none";
+}
+
 }  // namespace
 }  // namespace kinescope::app

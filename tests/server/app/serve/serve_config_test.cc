@@ -157,15 +157,37 @@ TEST(ServeConfig, DrawsPeopleAlikeInAllPicturesAndOnThePage) {
   const ServeConfig plain = ConfigOf({});
   EXPECT_EQ(plain.pictures->people.style, render::Style::kMatte);
   EXPECT_EQ(plain.page->look.loads, "spheres");
-  const ServeConfig config = ConfigOf({{"ros", "required"}, {"loads", "both"}, {"style", "clay"}});
+  const ServeConfig config = ConfigOf(
+      {{"ros", "required"}, {"loads", "both"}, {"style", "clay"}, {"body_opacity", "0.5"}});
   EXPECT_EQ(config.pictures->people.loads, render::LoadsShown::kBoth);
   EXPECT_EQ(config.pictures->people.style, render::Style::kClay);
   EXPECT_EQ(config.ros_camera->people.loads, render::LoadsShown::kBoth);
   EXPECT_EQ(config.ros_camera->people.style, render::Style::kClay);
   EXPECT_EQ(config.page->look.loads, "both");
   EXPECT_EQ(config.page->look.style, "clay");
+  EXPECT_EQ(config.page->look.body_opacity, 0.5);
+  EXPECT_EQ(config.pictures->people.body_opacity, 0.5);
+  EXPECT_EQ(*config.clips->view.body_opacity, 0.5);
   EXPECT_TRUE(config.page->look.draws_skins);
   EXPECT_FALSE(ConfigOf({{"figure", "urdf"}}).page->look.draws_skins);
+}
+
+TEST(ServeConfig, TellsThePageOfACameraThatWasPlaced) {
+  EXPECT_EQ(ConfigOf({{"camera", "front"}}).page->camera, "front");
+  EXPECT_EQ(ConfigOf({}).page->cameras.size(), render::CameraNames().size());
+  const ServeConfig config = ConfigOf({{"ros", "required"},
+                                       {"camera", "3,0,2:0,0,1:0,1,0"},
+                                       {"camera_tf", "cart:heading"},
+                                       {"fov", "60"}});
+  EXPECT_EQ(config.page->camera, http::kOwnCamera);
+  const http::CameraView& own = config.page->cameras.back();
+  EXPECT_EQ(own.name, http::kOwnCamera);
+  EXPECT_EQ(own.position, Eigen::Vector3d(3, 0, 2));
+  EXPECT_EQ(own.target, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(own.up, Eigen::Vector3d(0, 1, 0));
+  EXPECT_NEAR(own.vertical_fov_rad, M_PI / 3, 1e-12);
+  EXPECT_EQ(own.turn, "heading");
+  EXPECT_EQ(config.clips->own_camera, "3,0,2:0,0,1:0,1,0");
 }
 
 TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
