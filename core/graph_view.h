@@ -44,6 +44,22 @@ struct CovarianceStyle {
   double alpha = 0.3;
 };
 
+/// What a pose's standard deviation of the orientation does to the tips of its axes: an ellipse
+/// about each; of a pose in the plane, as a wedge about x.
+struct TurnCovarianceStyle {
+  double scale = 0;  // 0: none
+  std::optional<Rgb> color;
+  bool has_axis_colors = false;  // red, green and blue, in place of `color`
+  double alpha = 0.5;
+  double offset_m = 1;  // length of the axes
+};
+
+/// Poses along a path, if they are shown.
+struct PathPoses {
+  std::optional<double> size_m;  // length of their axes or arrows
+  std::optional<Rgb> color;      // of arrows
+};
+
 /// Every frame of TF: axes with the length `size_m`, a name in `color` and an arrow to its parent.
 struct FramesStyle {
   bool has_axes = true, has_names = true, has_arrows = true;
@@ -77,13 +93,17 @@ struct ShownStyle {
   std::optional<double> width_m;
   std::optional<PointScale> scale;  // of points, unless they have a colour
   bool has_axes = false;            // of a pose: three axes, not an arrow
+  bool has_arrows = false;          // of poses in an array or along a path: solid arrows
   // Of points, if they are few: spheres or cubes, not squares that face the viewer.
   bool has_spheres = false, has_cubes = false;
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
+  bool has_handles = true;  // of interactive markers: what is there for the mouse
   WrenchArrows wrench = {};
   FramesStyle frames = {};
   CovarianceStyle covariance = {};
+  TurnCovarianceStyle turn_covariance = {};
+  PathPoses poses = {};
   EarlierMessages earlier = {};
 };
 

@@ -50,6 +50,7 @@ LIBRARIES = {
     r"tf2(_msgs)?/": ("tf2", {"server/ros", "server/ros/source"}),
     r"(ros|xmlrpcpp|kinescope|\w+_msgs|std_srvs|dynamic_reconfigure)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),
     r"diagnostic_updater/": ("diagnostic_updater", {"server/ros"}),
+    r"interactive_markers/": ("interactive_markers", {"server/ros"}),
     r"libdeflate\.h": ("libdeflate", {"render/image"}),
     r"png\.h": ("libpng", {"render/image"}),
     r"jpeglib\.h": ("libjpeg-turbo", {"render/image"}),

@@ -88,18 +88,53 @@ bool TakeCovariance(const std::string& key, const std::string& text, CovarianceS
   return number && *number >= 0 && *number <= (is_alpha ? 1 : kLargestCovarianceScale);
 }
 
-// "names=off", "text=0.1", "timeout=5", "without=left|right" of all frames.
-bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& frames) {
-  if (key == "without") {
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-      const std::size_t end = std::min(text.find('|', begin), text.size());
-      frames.hidden.push_back(text.substr(begin, end - begin));
-      if (!IsFrameName(frames.hidden.back())) return false;
-      begin = end + 1;
-    }
-    return true;
+// "turn_covariance=1", "turn_covariance_color=#ffff7f" or "=axes", "turn_covariance_alpha=0.5",
+// "turn_covariance_offset=1" of a pose.
+bool TakeTurnCovariance(const std::string& key, const std::string& text,
+                        TurnCovarianceStyle& covariance) {
+  if (key == "turn_covariance_color") {
+    covariance.has_axis_colors = text == "axes";
+    covariance.color = ColorFromHex(text);
+    return covariance.has_axis_colors || covariance.color.has_value();
   }
+  const auto number = options::ParseNumber(text);
+  if (!number || *number < 0) return false;
+  if (key == "turn_covariance_alpha") {
+    covariance.alpha = *number;
+    return *number <= 1;
+  }
+  if (key == "turn_covariance_offset") {
+    covariance.offset_m = *number;
+    return *number >= kSmallestShown && *number <= kLargestShown;
+  }
+  covariance.scale = *number;
+  return *number <= kLargestCovarianceScale;
+}
+
+// "pose_size=0.3", "pose_color=#ff55ff" of a path.
+bool TakePoses(const std::string& key, const std::string& text, PathPoses& poses) {
+  if (key == "pose_color") {
+    poses.color = ColorFromHex(text);
+    return poses.color.has_value();
+  }
+  poses.size_m = options::ParseNumber(text);
+  return poses.size_m && *poses.size_m >= kSmallestShown && *poses.size_m <= kLargestShown;
+}
+
+// "without=left|right": frames, or namespaces of a topic of markers.
+bool TakeHidden(const std::string& text, std::vector<std::string>& hidden) {
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find('|', begin), text.size());
+    if (end == begin) return false;
+    hidden.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return true;
+}
+
+// "names=off", "text=0.1", "timeout=5" of all frames.
+bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& frames) {
   if (key == "text") {
     frames.name_m = options::ParseNumber(text);
     return frames.name_m && *frames.name_m >= kSmallestShown && *frames.name_m <= kLargestShown;
@@ -117,10 +152,11 @@ bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& fr
 
 bool TakeShape(const std::string& text, ShownStyle& style) {
   style.has_axes = text == "axes";
+  style.has_arrows = text == "arrows";
   style.has_spheres = text == "spheres";
   style.has_cubes = text == "cubes";
-  return style.has_axes || style.has_spheres || style.has_cubes || text == "arrow" ||
-         text == "squares";
+  return style.has_axes || style.has_arrows || style.has_spheres || style.has_cubes ||
+         text == "arrow" || text == "squares";
 }
 
 // "color=#ff8800": false where it says nothing.
@@ -147,7 +183,18 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (is_one_of({"covariance", "covariance_color", "covariance_alpha"})) {
     return TakeCovariance(key, text, style.covariance);
   }
-  if (is_one_of({"axes", "names", "arrows", "text", "timeout", "without"})) {
+  if (StartsWith(key, "turn_covariance")) {
+    return is_one_of({"turn_covariance", "turn_covariance_color", "turn_covariance_alpha",
+                      "turn_covariance_offset"}) &&
+           TakeTurnCovariance(key, text, style.turn_covariance);
+  }
+  if (is_one_of({"pose_size", "pose_color"})) return TakePoses(key, text, style.poses);
+  if (key == "handles") {
+    style.has_handles = text == "on";
+    return text == "on" || text == "off";
+  }
+  if (key == "without") return TakeHidden(text, style.frames.hidden);
+  if (is_one_of({"axes", "names", "arrows", "text", "timeout"})) {
     return TakeFrames(key, text, style.frames);
   }
   if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
@@ -187,6 +234,9 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
        options::SplitItems(text.substr(open + 1, text.size() - open - 2))) {
     if (!TakeStyle(item, topic.style)) return std::nullopt;
   }
+  const std::vector<std::string>& hidden = topic.style.frames.hidden;
+  const bool are_names = !topic.is_frame || std::all_of(hidden.begin(), hidden.end(), IsFrameName);
+  if (!are_names) return std::nullopt;
   return topic;
 }
 

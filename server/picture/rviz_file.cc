@@ -54,6 +54,7 @@ class RvizReader {
       throw UsageError(path_ + ": is no configuration of RViz: it has no 'Visualization Manager'");
     }
     ReadGlobalOptions(manager);
+    ReadTools(Member(manager, "Tools"));
     ReadDisplays(Member(manager, "Displays"), true);
     SetParts(LineOf(manager));
     ReadView(manager);
@@ -120,18 +121,23 @@ class RvizReader {
         fmt::format("{} {}", kind.empty() ? "a display without a Class" : kind,
                     Quoted(TextOf(display, "Name", "")));
     if (kind == "rviz/Grid") {
-      const std::string plane = TextOf(display, "Plane", "XY");
-      has_grid_ = has_grid_ || plane == "XY";
-      if (plane != "XY") Remark(display, called + " is no floor, and is not drawn: Plane " + plane);
+      ReadGrid(display, called);
     } else if (kind == "rviz/RobotModel") {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
-      ReadTopic(display, called, "Marker Topic", "");
+      ReadTopic(display, called, "Marker Topic", HiddenNamespaces(display, called));
     } else if (kind == "rviz/Image" || kind == "rviz/Camera") {
       ReadTopic(display, called, "Image Topic", "");
+      if (!BoolOf(display, "Normalize Range", true)) {
+        Remark(display, called +
+                            ": Normalize Range is off: a picture of numbers is drawn between "
+                            "its smallest and its largest value all the same");
+      }
       if (kind == "rviz/Camera")
         Remark(display, called + ": its picture is drawn without the scene");
+    } else if (kind == "rviz/InteractiveMarkers") {
+      ReadTopic(display, called, "Update Topic", InteractiveStyleOf(display));
     } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/Axes") {
@@ -143,21 +149,67 @@ class RvizReader {
     }
   }
 
+  void ReadGrid(const YAML::Node& display, const std::string& called) {
+    const std::string plane = TextOf(display, "Plane", "XY");
+    if (plane != "XY") {
+      Remark(display, called + " is no floor, and is not drawn: Plane " + plane);
+      return;
+    }
+    has_grid_ = true;
+    const std::string frame = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
+    if (frame != "<Fixed Frame>" && frame != picture_.fixed_frame) {
+      Remark(display, called + ": Reference Frame " + Quoted(frame) + ": the floor is the scene's");
+    }
+    NameOffset(display, called, "the floor is the scene's");
+  }
+
+  void NameOffset(const YAML::Node& display, const std::string& called, const char* otherwise) {
+    const YAML::Node offset = Member(display, "Offset");
+    if (!offset.IsDefined() || !offset.IsMap()) return;
+    for (const char* const axis : {"X", "Y", "Z"}) {
+      if (rviz::NumberOf(offset, axis, 0, -kFarthest, kFarthest) == 0) continue;
+      return Remark(display, called + ": Offset is not taken: " + otherwise);
+    }
+  }
+
+  // A robot is drawn as a whole.
+  void NameLinks(const YAML::Node& display, const std::string& called) {
+    const YAML::Node links = Member(display, "Links");
+    if (!links.IsDefined() || !links.IsMap()) return;
+    std::vector<std::string> off;
+    for (const auto& link : links) {
+      if (!link.first.IsScalar() || !link.second.IsMap()) continue;
+      if (!BoolOf(link.second, "Value", true)) off.push_back(link.first.as<std::string>());
+    }
+    if (off.empty()) return;
+    Remark(display,
+           fmt::format("{}: links that are off are drawn: {}{}", called, off.front(),
+                       off.size() > 1 ? fmt::format(" and {} others", off.size() - 1) : ""));
+  }
+
   void ReadRobotModel(const YAML::Node& display, const std::string& called) {
     if (!BoolOf(display, "Visual Enabled", true)) {
       Remark(display, called + ": collision geometry is not drawn");
       return;
     }
+    if (BoolOf(display, "Collision Enabled", false)) {
+      Remark(display, called + ": Collision Enabled: collision geometry is not drawn");
+    }
+    NameLinks(display, called);
     const std::string name = TextOf(display, "Robot Description", "robot_description"),
                       prefix = TextOf(display, "TF Prefix", "");
     const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
     if (IsTopicName(name) && (prefix.empty() || IsFrameName(prefix))) {
       const std::string style = alpha < 1 ? "(alpha=" + options::NumberText(alpha) + ")" : "";
       picture_.robots.push_back({"ros:" + name + (prefix.empty() ? "" : "@tf:" + prefix) + style,
-                                 Shown(called), LineOf(display), alpha < 1});
+                                 Shown(called), LineOf(display)});
     } else {
       Remark(display, fmt::format("{} is not drawn: {} with the prefix {} is no name in ROS",
                                   called, Quoted(name), Quoted(prefix)));
+    }
+    // Of the first one: that is the people's, where there is no graph that says more.
+    if (!has_model_ && alpha < 1) {
+      Set("body_opacity", options::NumberText(alpha), LineOf(display));
     }
     has_model_ = true;
   }
@@ -166,6 +218,7 @@ class RvizReader {
   std::string StyleOf(const YAML::Node& display, const std::string& kind,
                       const std::string& called) {
     rviz::TopicStyle style = rviz::StyleOf(display, kind);
+    if (kind == "rviz/Path") NameOffset(display, called, "the path is where it is");
     for (const std::string& remark : style.remarks) Remark(display, called + ": " + remark);
     return std::move(style.text);
   }
@@ -187,6 +240,21 @@ class RvizReader {
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
       Remark(display, called + " is not drawn: " + why);
     }
+  }
+
+  // The first tool is the active one: only Interact shows what it takes.
+  void ReadTools(const YAML::Node& tools) {
+    if (!tools.IsDefined() || !tools.IsSequence() || tools.size() == 0) return;
+    has_handles_ = TextOf(tools[0], "Class", "") == "rviz/Interact";
+  }
+
+  std::string InteractiveStyleOf(const YAML::Node& display) const {
+    std::vector<std::string> items;
+    if (!BoolOf(display, "Show Descriptions", true)) items.emplace_back("names=off");
+    if (BoolOf(display, "Show Axes", false)) items.emplace_back("shape=axes");
+    if (!BoolOf(display, "Enable Transparency", true)) items.emplace_back("alpha=1");
+    if (!has_handles_) items.emplace_back("handles=off");
+    return items.empty() ? "" : fmt::format("({})", fmt::join(items, ","));
   }
 
   void ReadAxes(const YAML::Node& display, const std::string& called) {
@@ -248,6 +316,26 @@ class RvizReader {
       }
     }
     return names;
+  }
+
+  // "(without=a|b)": those of other nodes; ours are parts of the scene.
+  std::string HiddenNamespaces(const YAML::Node& display, const std::string& called) {
+    const YAML::Node namespaces = Member(display, "Namespaces");
+    std::string names;
+    if (!namespaces.IsDefined() || !namespaces.IsMap()) return names;
+    for (const auto& each : namespaces) {
+      if (!each.first.IsScalar()) continue;
+      const std::string name = each.first.as<std::string>();
+      const bool is_part = std::find(std::begin(kMarkerParts), std::end(kMarkerParts), name) !=
+                           std::end(kMarkerParts);
+      if (is_part || BoolOf(namespaces, name, true)) continue;
+      if (name.empty() || name.find_first_of("|,()=") != std::string::npos) {
+        Remark(display, called + ": the namespace " + Quoted(name) + " is not left out");
+      } else {
+        names += (names.empty() ? "" : "|") + name;
+      }
+    }
+    return names.empty() ? names : "(without=" + names + ")";
   }
 
   // Parts are drawn that some display shows.
@@ -328,6 +416,7 @@ class RvizReader {
   const std::string path_;
   const int height_px_;
   RvizPicture picture_;
+  bool has_handles_ = true;  // of interactive markers
   bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
   std::set<std::string> shown_parts_;
 };

@@ -37,7 +37,6 @@ struct RvizPicture {
     std::string option;   // a value of --robot
     std::string display;  // "rviz/RobotModel 'Arm'"
     int line = 1;
-    bool is_translucent = false;
   };
   std::vector<Robot> robots;
   std::vector<std::string>

@@ -48,10 +48,6 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
     return;
   }
   // The first model is that of the people.
-  if (robots.front().is_translucent) {
-    spdlog::warn("{}:{}: {}: Alpha is not taken, people are opaque", file, robots.front().line,
-                 robots.front().display);
-  }
   for (std::size_t i = 1; i < robots.size(); ++i) {
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
                  robots[i].line, robots[i].display);

@@ -182,26 +182,47 @@ class StyleReader {
     if (shape == "Axes") {
       Add("shape=axes");
       size = NumberOf(properties_, "Axes Length", 0, 0, kLargestShown);
+    } else if (shape == "Arrow (3D)") {
+      Add("shape=arrows");
+      size = NumberOf(properties_, "Shaft Length", 0.23, 0, kLargestShown) +
+             NumberOf(properties_, "Head Length", 0.07, 0, kLargestShown);
     } else if (has_.only_if == nullptr ||
                TextOf(display_, has_.only_if, has_.usually) != std::string(has_.not_if)) {
       for (const char* const part : has_.sizes) {
         if (part != nullptr) size += NumberOf(properties_, part, 0, 0, kLargestShown);
       }
     }
-    const std::string poses = TextOf(display_, "Pose Style", "None");
-    if (poses == "Axes") {
-      Add("shape=axes");
-    } else if (poses != "None") {
-      Remark("Pose Style '" + poses + "': poses along the line are not drawn");
-    }
+    AddPathPoses();
     if (has_.color == nullptr) {
       const std::string style = TextOf(display_, "Style", "");
+      if (style == "Points") Remark("Style 'Points' is drawn as squares of 1 cm");
       if (style == "Spheres") Add("shape=spheres");
       if (style == "Boxes") Add("shape=cubes");
     }
-    if (shape == "Arrow (3D)") Remark("Shape 'Arrow (3D)' is drawn as flat arrows");
     if (size >= kSmallestShown) {
       Add("size=" + options::NumberText(std::min(size, kLargestShown)));
+    }
+  }
+
+  // Of a path.
+  void AddPathPoses() {
+    const std::string poses = TextOf(display_, "Pose Style", "None");
+    const auto metres = [&](const char* property, double usual) {
+      return NumberOf(display_, property, usual, 0, kLargestShown);
+    };
+    double length = 0;
+    if (poses == "Axes") {
+      Add("shape=axes");
+      length = metres("Length", 0.3);
+    } else if (poses == "Arrows") {
+      Add("shape=arrows");
+      length = metres("Shaft Length", 0.1) + metres("Head Length", 0.2);
+      AddColor("pose_color=", "Pose Color", {1, 1.0 / 3, 1});
+    } else if (poses != "None") {
+      Remark("Pose Style '" + poses + "': poses along the line are not drawn");
+    }
+    if (length >= kSmallestShown) {
+      Add("pose_size=" + options::NumberText(std::min(length, kLargestShown)));
     }
   }
 
@@ -223,19 +244,31 @@ class StyleReader {
   void AddCovariance() {
     const YAML::Node covariance = Member(display_, "Covariance");
     if (!covariance.IsDefined() || !BoolOf(covariance, "Value", true)) return;
+    const auto add_number = [&](const std::string& key, const YAML::Node& node,
+                                const char* property, double usual, double most) {
+      Add(key + "=" + options::NumberText(NumberOf(node, property, usual, 0, most)));
+    };
     const YAML::Node position = Member(covariance, "Position");
     if (BoolOf(position, "Value", true)) {
-      const auto add_number = [&](const char* key, const char* property, double usual,
-                                  double most) {
-        Add(key + options::NumberText(NumberOf(position, property, usual, 0, most)));
-      };
-      add_number("covariance=", "Scale", 1, kLargestCovarianceScale);
-      add_number("covariance_alpha=", "Alpha", 0.3, 1);
+      add_number("covariance", position, "Scale", 1, kLargestCovarianceScale);
+      add_number("covariance_alpha", position, "Alpha", 0.3, 1);
       const auto rgb = ColorOf(position, "Color", {0.8, 0.2, 0.8});
       if (rgb) Add("covariance_color=" + ToHex(*rgb));
     }
-    if (BoolOf(Member(covariance, "Orientation"), "Value", true)) {
-      Remark("the covariance of the orientation is not drawn");
+    const YAML::Node turn = Member(covariance, "Orientation");
+    if (!BoolOf(turn, "Value", true)) return;
+    add_number("turn_covariance", turn, "Scale", 1, kLargestCovarianceScale);
+    add_number("turn_covariance_alpha", turn, "Alpha", 0.5, 1);
+    const double offset = NumberOf(turn, "Offset", 1, kSmallestShown, kLargestShown);
+    Add("turn_covariance_offset=" + options::NumberText(offset));
+    if (TextOf(turn, "Color Style", "Unique") == "RGB") {
+      Add("turn_covariance_color=axes");
+    } else if (const auto rgb = ColorOf(turn, "Color", {1, 1, 127.0 / 255})) {
+      Add("turn_covariance_color=" + ToHex(*rgb));
+    }
+    if (TextOf(turn, "Frame", "Local") == "Fixed") {
+      Remark(
+          "the covariance of the orientation is drawn about the axes of the pose, not fixed ones");
     }
   }
 

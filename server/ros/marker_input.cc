@@ -90,6 +90,11 @@ void ColourByPlace(SceneMarker& points, const ShownStyle& style) {
   for (const auto& color : ColorsOf(values, style)) points.colors.push_back(FromMarker(color));
 }
 
+bool IsLeftOut(const Marker& message, const ShownStyle& style) {
+  const std::vector<std::string>& hidden = style.frames.hidden;
+  return std::find(hidden.begin(), hidden.end(), message.ns) != hidden.end();
+}
+
 }  // namespace
 
 Taken<SceneMarker> ToSceneMarker(const Marker& message) {
@@ -104,7 +109,12 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
   if (HasPoints(marker.type)) {
     for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
     if (marker.type != MarkerType::kArrow) {
-      for (const auto& color : message.colors) marker.colors.push_back(FromMarker(color));
+      // As in RViz, triangles may have one color each.
+      const bool has_face_colors = marker.type == MarkerType::kTriangleList &&
+                                   3 * message.colors.size() == message.points.size();
+      for (const auto& color : message.colors) {
+        marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1, FromMarker(color));
+      }
     }
   }
   if (marker.type == MarkerType::kText) marker.text = message.text;
@@ -118,6 +128,7 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
 
 std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
                                           std::int64_t monotonic_nanos, const ShownStyle& style) {
+  if (IsLeftOut(message, style)) return std::nullopt;
   const auto erase = [&](auto from, auto to) {
     for (auto entry = from; entry != to; ++entry) points_ -= entry->second.shape->points.size();
     has_changed_ = has_changed_ || from != to;
@@ -177,6 +188,17 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const std::int64_t lives = message.lifetime.toNSec();
   entry.dies_nanos = lives > 0 ? monotonic_nanos + lives : 0;
   return std::nullopt;
+}
+
+std::optional<Refusal> MarkerStore::ApplyAll(std::size_t topic, const std::vector<Marker>& messages,
+                                             std::int64_t monotonic_nanos,
+                                             const ShownStyle& style) {
+  std::optional<Refusal> first;
+  for (const Marker& message : messages) {
+    auto refusal = Apply(topic, message, monotonic_nanos, style);
+    if (refusal && !first) first = std::move(refusal);
+  }
+  return first;
 }
 
 // Many markers share a frame and a stamp, so each is looked up once. Whether a frame exists does
@@ -263,7 +285,7 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
 std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
 
 void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame) {
-  if (const auto refusal = store.Apply(topic, AxesOf(frame.name, frame.style), 0)) {
+  if (const auto refusal = store.Apply(topic, AxesMarker(frame.name, frame.style), 0)) {
     throw UsageError("--marker_topics: " + refusal->text);
   }
 }

@@ -37,12 +37,18 @@ class MarkerStore {
   using Markers = std::vector<std::shared_ptr<const SceneMarker>>;
 
   /// `topic` identifies the sender: namespaces and ids of markers are separate per topic. Points
-  /// that `style` colours by an axis have their colours as soon as they have a place.
+  /// that `style` colours by an axis have their colours as soon as they have a place; markers of a
+  /// namespace that it leaves out (`frames.hidden`) have no effect.
   /// @return why the message was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
                                              std::int64_t monotonic_nanos,
                                              const ShownStyle& style = {});
+
+  /// All of them. @return why the first of those that were rejected was
+  [[nodiscard]] std::optional<Refusal> ApplyAll(
+      std::size_t topic, const std::vector<visualization_msgs::Marker>& messages,
+      std::int64_t monotonic_nanos, const ShownStyle& style = {});
 
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.

@@ -88,14 +88,12 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
                                                            [message](const void*) {});
     return TakeImage(topic, ReadImage(sum, std::move(bytes)), monotonic_nanos);
   }
-  if (const ToMarkersOfBytes to_markers = FindShownMessage(sum)) {
-    return TakeShown(topic, to_markers(raw.bytes, topics_[topic].style), monotonic_nanos);
-  }
+  if (TopicMarkers::IsShown(sum)) return TakeShown(topic, sum, raw.bytes, monotonic_nanos);
   Refuse(topic,
          {"another type",
           fmt::format("message type {}: expected visualization_msgs/Marker, "
                       "visualization_msgs/MarkerArray, sensor_msgs/Image, CompressedImage, {}",
-                      said("type").substr(0, kLongestMarkerType), NamesOfShownMessages())});
+                      said("type").substr(0, kLongestMarkerType), NamesOfShownTypes())});
 }
 
 void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
@@ -107,17 +105,13 @@ void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
   CountUsed(topic);
 }
 
-void MarkerInbox::TakeShown(std::size_t topic, Taken<ShownMarkers> markers,
-                            std::int64_t monotonic_nanos) {
-  if (!markers) return Refuse(topic, markers.error());
+void MarkerInbox::TakeShown(std::size_t topic, const std::string& md5sum,
+                            const std::vector<std::uint8_t>& bytes, std::int64_t monotonic_nanos) {
   const ShownStyle& style = topics_[topic].style;
-  if (!shelf_.Place(topic, style.earlier, *markers)) return CountUsed(topic);
-  NameByTopic(*markers, topics_[topic].name);
-  for (const visualization_msgs::Marker& marker : *markers) {
-    if (const auto refusal = store_.Apply(topic, marker, monotonic_nanos, style)) {
-      return Refuse(topic, *refusal);
-    }
-  }
+  ShownMarkers markers;
+  const auto refused = shown_.Take(topic, topics_[topic].name, style, md5sum, bytes, markers);
+  const auto undrawn = store_.ApplyAll(topic, markers, monotonic_nanos, style);
+  if (refused || undrawn) return Refuse(topic, refused ? *refused : *undrawn);
   CountUsed(topic);
 }
 
@@ -133,7 +127,7 @@ void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& mess
   if (IsOwnMarkerNamespace(message.ns)) {
     return Refuse(topic, {"of Kinescope", "markers of Kinescope: the scene has them already"});
   }
-  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos)) {
+  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos, topics_[topic].style)) {
     return Refuse(topic, *refusal);
   }
   CountUsed(topic);
@@ -215,16 +209,21 @@ std::map<std::string, InputCounters> MarkerInbox::counters() const {
 std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
                                               const std::shared_ptr<MarkerInbox>& inbox) {
   std::vector<ros::Subscriber> all;
-  for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
-    if (inbox->topics()[topic].is_frame) continue;
+  const auto subscribe = [&](std::size_t topic, const std::string& name) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const MarkerInbox::Event&>(
-        inbox->topics()[topic].name, kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
+        name, kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
           inbox->OnMessage(topic, event, MonotonicNanos());
         });
     options.callback_queue = &queue;
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     all.push_back(node.subscribe(options));
+  };
+  for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
+    const ShownTopic& shown = inbox->topics()[topic];
+    if (shown.is_frame) continue;
+    subscribe(topic, shown.name);
+    if (const std::string whole = TopicOfAll(shown.name); !whole.empty()) subscribe(topic, whole);
   }
   return all;
 }

@@ -20,14 +20,13 @@
 #include "core/graph_view.h"
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
-#include "server/ros/earlier_messages.h"
 #include "server/ros/followed_frame.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_frames.h"
-#include "server/ros/shown_messages.h"
+#include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 
@@ -60,7 +59,8 @@ class MarkerInbox {
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
   void TakeImage(std::size_t topic, Taken<CameraImage> image, std::int64_t monotonic_nanos);
-  void TakeShown(std::size_t topic, Taken<ShownMarkers> markers, std::int64_t monotonic_nanos);
+  void TakeShown(std::size_t topic, const std::string& md5sum,
+                 const std::vector<std::uint8_t>& bytes, std::int64_t monotonic_nanos);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
@@ -72,7 +72,7 @@ class MarkerInbox {
 
   // Used by the thread that reads samples only.
   MarkerStore store_;
-  MessageShelf shelf_;
+  TopicMarkers shown_;
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;

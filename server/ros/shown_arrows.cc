@@ -25,10 +25,6 @@ struct Usual {
 
 Vector3d FromRos(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
-geometry_msgs::Point PointAt(const Vector3d& at) {
-  return ros_bridge::PointAt(at.x(), at.y(), at.z());
-}
-
 // Its length is not 0.
 Marker ArrowOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color,
                const Vector3d& to, const std::optional<double>& width) {

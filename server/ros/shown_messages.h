@@ -104,7 +104,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::RelativeHumidity& message,
                               const ShownStyle& style = {});
 
 /// Axes of 1 m, or of the size of the style, that go with a frame of TF; "": that of the scene.
-visualization_msgs::Marker AxesOf(const std::string& frame, const ShownStyle& style);
+visualization_msgs::Marker AxesMarker(const std::string& frame, const ShownStyle& style);
 
 /// The markers of serialised bytes; or why there are none.
 using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>& bytes,

@@ -72,6 +72,36 @@ geometry_msgs::Point PointAt(double x, double y, double z) {
   return point;
 }
 
+geometry_msgs::Point PointAt(const Eigen::Vector3d& at) { return PointAt(at.x(), at.y(), at.z()); }
+
+Eigen::Vector3d PositionOf(const geometry_msgs::Pose& pose) {
+  return {pose.position.x, pose.position.y, pose.position.z};
+}
+
+Eigen::Quaterniond TurnOf(const geometry_msgs::Pose& pose) {
+  Eigen::Quaterniond turn(pose.orientation.w, pose.orientation.x, pose.orientation.y,
+                          pose.orientation.z);
+  if (turn.norm() == 0) turn.setIdentity();
+  turn.normalize();
+  return turn;
+}
+
+geometry_msgs::Pose PoseAt(const Eigen::Vector3d& position, const Eigen::Quaterniond& turn) {
+  geometry_msgs::Pose pose;
+  pose.position = PointAt(position);
+  pose.orientation.w = turn.w();
+  pose.orientation.x = turn.x();
+  pose.orientation.y = turn.y();
+  pose.orientation.z = turn.z();
+  return pose;
+}
+
+Marker LineOf(const std_msgs::Header& header, const ShownStyle& style) {
+  Marker line = MarkerOf(header, 0, Marker::LINE_STRIP, In(style, Color(25, 255, 0)));
+  line.scale.x = style.size_m.value_or(0.02);
+  return line;
+}
+
 tl::unexpected<Refusal> TooLarge(const char* what, std::size_t count, std::size_t most) {
   return tl::unexpected(
       Refusal{"too large", fmt::format("{} {}: expected at most {}", count, what, most)});

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseWithCovariance.h>
 #include <std_msgs/ColorRGBA.h>
 #include <std_msgs/Header.h>
 #include <visualization_msgs/Marker.h>
 
+#include <Eigen/Geometry>
 #include <cstddef>
 
 #include "core/graph_view.h"
@@ -28,7 +31,18 @@ visualization_msgs::Marker PointsOf(const std_msgs::Header& header, const ShownS
                                     double size);
 /// Deletes it if it has no points; of many points, squares take the place of spheres and cubes.
 ShownMarkers PointsOrNone(visualization_msgs::Marker points);
+/// A line strip as those of paths, without points yet; 2 cm wide.
+visualization_msgs::Marker LineOf(const std_msgs::Header& header, const ShownStyle& style);
+/// The ellipsoid of the position's standard deviation: id 1. That of the orientation: ids 2 to 4.
+/// What the style or the pose does not have is deleted.
+void AddCovariances(const std_msgs::Header& header, const geometry_msgs::PoseWithCovariance& pose,
+                    const ShownStyle& style, ShownMarkers& markers);
 geometry_msgs::Point PointAt(double x, double y, double z);
+geometry_msgs::Point PointAt(const Eigen::Vector3d& at);
+Eigen::Vector3d PositionOf(const geometry_msgs::Pose& pose);
+/// Normalised; of a message without an orientation, no turn.
+Eigen::Quaterniond TurnOf(const geometry_msgs::Pose& pose);
+geometry_msgs::Pose PoseAt(const Eigen::Vector3d& position, const Eigen::Quaterniond& turn);
 tl::unexpected<Refusal> TooLarge(const char* what, std::size_t count, std::size_t most);
 
 }  // namespace kinescope::ros_bridge

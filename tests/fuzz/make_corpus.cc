@@ -359,12 +359,18 @@ void WriteRviz(const fs::path& folder) {
           "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
           "    - {Class: rviz/TF, Enabled: true, Name: TF}\n"
           "    - {Class: rviz/TF, Enabled: true, Show Names: false, Frames: {a: {Value: false}}}\n"
-          "    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.5}\n"
+          "    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.5, Links: {a: {Value: false}}}\n"
+          "    - {Class: rviz/InteractiveMarkers, Enabled: true, Update Topic: /a/update}\n"
+          "    - {Class: rviz/Path, Enabled: true, Topic: /b, Pose Style: Arrows, Offset: {X: 1}}\n"
+          "    - {Class: rviz/Odometry, Enabled: true, Topic: /c, Covariance: {Value: true,\n"
+          "       Orientation: {Value: true, Color Style: RGB, Offset: 1e9}}}\n"
+          "    - {Class: rviz/Marker, Enabled: true, Marker Topic: /d, Namespaces: {e f: false}}\n"
           "    - {Class: rviz/RobotModel, Enabled: true, Visual Enabled: false}\n"
           "    - {Class: rviz/MarkerArray, Enabled: true, Namespaces: {com: false}}\n"
           "    - Class: rviz/Group\n"
           "      Enabled: true\n"
           "      Displays: [{Class: rviz/Path, Value: true, Name: \"a\\e[31m\"}]\n"
+          "  Tools: [{Class: rviz/MoveCamera}]\n"
           "Panels: [{Class: rviz/Time, SyncMode: 1}]\n");
   for (const char* view :
        {"rviz/Orbit", "rviz/XYOrbit", "rviz/FPS", "rviz/TopDownOrtho", "plugin/Own"}) {
@@ -500,6 +506,32 @@ void WriteValues(const fs::path& folder) {
         folder / names[i],
         RosBytes(static_cast<char>(21 + i)).Header("jRightKnee").Reals<double>({45.0, 0}).bytes());
   }
+}
+
+// A server's whole, with a marker of its own and a control whose handle RViz makes; and an update
+// that moves it.
+void WriteInteractiveMarkers(const fs::path& folder) {
+  constexpr int kMoveAxis = 3, kUpdate = 1;
+  const std::vector<double> pose = {1, 2, 3, 0, 0, 0, 1};
+  RosBytes all('\34');
+  all.Text("goals").Count(7).Count(0).Count(1);  // server, number, markers
+  all.Header("world").Reals(pose).Text("goal").Text("to here").Reals<float>({0.5F}).Count(0);
+  all.Count(2);  // controls: name, turn, modes, whether it is always visible, markers
+  all.Text("box").Reals<double>({0, 0, 0, 1}).Byte(0).Byte(0).Byte(1).Count(1).Marker(1, 1, 0);
+  all.Byte(0).Text("");
+  all.Text("x")
+      .Reals<double>({0, 0, 0, 1})
+      .Byte(0)
+      .Byte(kMoveAxis)
+      .Byte(0)
+      .Count(0)
+      .Byte(0)
+      .Text("");
+  Write(folder / "interactive_all", all.bytes());
+  RosBytes update('\35');
+  update.Text("goals").Count(8).Count(0).Byte(kUpdate).Count(0).Count(1);
+  update.Header("world").Reals(pose).Text("goal").Count(1).Text("gone");
+  Write(folder / "interactive_update", update.bytes());
 }
 
 void WriteMarkers(const fs::path& folder) {
@@ -650,6 +682,7 @@ int main(int argc, char** argv) {
   WritePngs(folder / "png");
   WriteRigs(folder / "rig");
   WriteMarkers(folder / "marker");
+  WriteInteractiveMarkers(folder / "marker");
   WriteLoads(folder / "loads");
   WriteOptions(folder / "options");
   WritePoses(folder / "pose");

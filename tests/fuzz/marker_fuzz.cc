@@ -17,6 +17,7 @@
 #include "core/system/check.h"
 #include "render/image/camera_picture.h"
 #include "server/ros/image_messages.h"
+#include "server/ros/interactive_markers.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
@@ -71,7 +72,8 @@ void CheckShown(const std::vector<std::uint8_t>& bytes) {
   scaled.has_spheres = true;
   ShownStyle of_rviz;
   of_rviz.width_m = 0.3;
-  of_rviz.covariance.scale = 1;
+  of_rviz.covariance.scale = of_rviz.turn_covariance.scale = 1;
+  of_rviz.has_arrows = true;
   for (const ShownStyle& style : {ShownStyle{}, scaled, of_rviz}) {
     const auto markers = convert(bytes, style);
     if (markers) {
@@ -80,6 +82,25 @@ void CheckShown(const std::vector<std::uint8_t>& bytes) {
       KINESCOPE_CHECK(!markers.error().text.empty());
     }
   }
+}
+
+// One message after the other, as servers send them: the same one again, then as of a server that
+// was restarted.
+template <class Message>
+void CheckInteractive(const std::vector<std::uint8_t>& bytes) {
+  Message message;
+  if (!Read(bytes, message)) return;
+  InteractiveMarkers markers;
+  ShownMarkers all;
+  ShownStyle with_axes;
+  with_axes.has_axes = true;
+  for (const ShownStyle& style : {ShownStyle{}, with_axes}) {
+    const auto refusal = markers.Take(message, style, all);
+    KINESCOPE_CHECK(!refusal || !refusal->text.empty());
+    message.seq_num /= 2;
+  }
+  KINESCOPE_CHECK(all.size() <= 4 * kMostInteractiveMarkers);
+  CheckMarkers(all);
 }
 
 template <class Message>
@@ -97,7 +118,7 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 28) {
+  switch (data[0] % 30) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -133,7 +154,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 24: CheckShown<sensor_msgs::RelativeHumidity>(bytes); break;
     case 25: CheckShown<geometry_msgs::TwistStamped>(bytes); break;
     case 26: CheckShown<geometry_msgs::AccelStamped>(bytes); break;
-    default: CheckShown<sensor_msgs::Range>(bytes); break;
+    case 27: CheckShown<sensor_msgs::Range>(bytes); break;
+    case 28: CheckInteractive<visualization_msgs::InteractiveMarkerInit>(bytes); break;
+    default: CheckInteractive<visualization_msgs::InteractiveMarkerUpdate>(bytes); break;
   }
   return 0;
 }

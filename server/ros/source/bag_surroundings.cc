@@ -37,10 +37,13 @@ bool HasJoints(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::md5sum<sensor_msgs::JointState>();
 }
 
-std::map<std::string, ShownStyle> ByName(const std::vector<ShownTopic>& topics) {
-  std::map<std::string, ShownStyle> all;
+std::map<std::string, ShownTopic> ByName(const std::vector<ShownTopic>& topics) {
+  std::map<std::string, ShownTopic> all;
   for (const ShownTopic& topic : topics) {
-    if (!topic.is_frame) all[WithSlash(topic.name)] = topic.style;
+    if (topic.is_frame) continue;
+    const ShownTopic named{WithSlash(topic.name), topic.style};
+    all.insert_or_assign(named.name, named);
+    if (const std::string whole = TopicOfAll(named.name); !whole.empty()) all.emplace(whole, named);
   }
   return all;
 }
@@ -74,7 +77,7 @@ bool BagSurroundings::IsUsed(const BagConnection& connection) const {
                        [&](const Robot& robot) { return robot.joint_states == topic; });
   }
   return shown_topics_.count(topic) != 0 &&
-         (IsImageType(connection.md5sum) || FindShownMessage(connection.md5sum) != nullptr);
+         (IsImageType(connection.md5sum) || TopicMarkers::IsShown(connection.md5sum));
 }
 
 void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
@@ -117,11 +120,9 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
   const auto number = NumberOf(message.connection->topic, counters);
   if (!number) return;
   has_markers_ = true;
-  std::optional<Refusal> refused;
-  for (const visualization_msgs::Marker& marker : array_.markers) {
-    const auto refusal = store_.Apply(*number, marker, message.recorded_nanos);
-    if (refusal && !refused) refused = refusal;
-  }
+  const auto named = shown_topics_.find(WithSlash(message.connection->topic));
+  const ShownStyle style = named == shown_topics_.end() ? ShownStyle() : named->second.style;
+  const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
   if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
 }
 
@@ -130,22 +131,16 @@ void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& count
     ++counters.rejected["messages of more than 16 MiB"];
     return;
   }
-  const ShownStyle& style = shown_topics_.at(WithSlash(message.connection->topic));
-  Taken<ShownMarkers> shown = FindShownMessage(message.connection->md5sum)(message.bytes, style);
-  if (!shown) {
-    ++counters.rejected[message.connection->type + ": " + shown.error().kind];
-    return;
-  }
-  const auto number = NumberOf(message.connection->topic, counters);
+  const ShownTopic& topic = shown_topics_.at(WithSlash(message.connection->topic));
+  const auto number = NumberOf(topic.name, counters);
   if (!number) return;
   has_markers_ = true;
-  if (!shelf_.Place(*number, style.earlier, *shown)) return;
-  NameByTopic(*shown, WithSlash(message.connection->topic));
-  for (const visualization_msgs::Marker& marker : *shown) {
-    if (const auto refusal = store_.Apply(*number, marker, message.recorded_nanos, style)) {
-      ++counters.rejected[message.connection->type + ": " + refusal->kind];
-      return;
-    }
+  ShownMarkers markers;
+  const auto refused = shown_.Take(*number, topic.name, topic.style, message.connection->md5sum,
+                                   message.bytes, markers);
+  const auto undrawn = store_.ApplyAll(*number, markers, message.recorded_nanos, topic.style);
+  if (refused || undrawn) {
+    ++counters.rejected[message.connection->type + ": " + (refused ? refused : undrawn)->kind];
   }
 }
 

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "core/source.h"
-#include "server/ros/earlier_messages.h"
 #include "server/ros/followed_frame.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
@@ -26,6 +25,7 @@
 #include "server/ros/shown_frames.h"
 #include "server/ros/source/bag_reader.h"
 #include "server/ros/source/bag_source.h"
+#include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 
@@ -66,13 +66,14 @@ class BagSurroundings {
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
 
-  const std::map<std::string, ShownStyle> shown_topics_;  // by name, with its slash
+  /// By name, with its slash; also those that say all of a server of interactive markers.
+  const std::map<std::string, ShownTopic> shown_topics_;
   std::vector<Robot> robots_;
   bool has_new_robots_ = true;
   std::optional<std::int64_t> placed_nanos_;
   bool has_markers_ = false;
   MarkerStore store_;
-  MessageShelf shelf_;
+  TopicMarkers shown_;
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;

@@ -285,16 +285,17 @@ Visualization Manager:
   EXPECT_THAT(
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
-                  "(shape=axes,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)", "", "(by=z)",
-                  "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)", "(size=10)",
+                  "(shape=axes,pose_size=0.3,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)",
+                  "", "(by=z)", "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)",
+                  "(size=10)",
                   "(color=#0000ff,alpha=0.5,size=0.75,covariance=1,covariance_alpha=0.3,covariance_"
-                  "color=#cc33cc,keep=1,step=0.1,turn=0.1)",
+                  "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
+                  "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
                   "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)", "(by=x,from=-1,to=2.5)",
                   "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark :
-       {"'': the covariance of the orientation is not drawn", "Draw Behind 'true': it is drawn in",
-        "Color Scheme 'raw' is drawn as 'map'",
+       {"Draw Behind 'true': it is drawn in", "Color Scheme 'raw' is drawn as 'map'",
         "Use Fixed Frame 'false': the axis is that of the scene",
         "Channel Name 'my,ring' cannot be taken; its points are white",
         "Color Transformer 'MONO8' is not taken"}) {
@@ -363,7 +364,7 @@ Visualization Manager:
       Covariance:
         Value: true
         Position: {Alpha: 0.5, Color: 204; 51; 204, Scale: 2, Value: true}
-        Orientation: {Value: true}
+        Orientation: {Value: true, Alpha: 0.25, Offset: 2, Color Style: RGB, Frame: Fixed, Scale: 3}
     - {Class: rviz/Camera, Enabled: true, Name: Eye, Image Topic: /eye/image_raw}
 )");
   ASSERT_EQ(picture.topics.size(), 4u);
@@ -371,17 +372,98 @@ Visualization Manager:
             "(color=#ff0000,force=1.3,torque=0,width=0.3,torque_color=#0000ff)");
   EXPECT_EQ(picture.topics[1].style, "(color=#ffffff,alpha=0.5,keep=3)");
   EXPECT_EQ(picture.topics[2].style,
-            "(covariance=2,covariance_alpha=0.5,covariance_color=#cc33cc)");
+            "(covariance=2,covariance_alpha=0.5,covariance_color=#cc33cc,turn_covariance=3,turn_"
+            "covariance_alpha=0.25,turn_covariance_offset=2,turn_covariance_color=axes)");
   EXPECT_EQ(picture.topics[3].name, "/eye/image_raw");
-  EXPECT_THAT(picture.remarks,
-              Contains(HasSubstr("'Place': the covariance of the orientation is not drawn")));
+  EXPECT_THAT(
+      picture.remarks,
+      Contains(HasSubstr("'Place': the covariance of the orientation is drawn about the axes of "
+                         "the pose, not fixed ones")));
   EXPECT_THAT(picture.remarks,
               Contains(HasSubstr("'Eye': its picture is drawn without the scene")));
   ShownTopicsValue value;
   value.Parse("/p" + picture.topics[2].style + ",/t(linear=0.5,angular=0)");
   EXPECT_EQ((*value)[0].style.covariance.scale, 2);
+  EXPECT_EQ((*value)[0].style.turn_covariance.scale, 3);
+  EXPECT_TRUE((*value)[0].style.turn_covariance.has_axis_colors);
   EXPECT_EQ((*value)[1].style.wrench.force_m, 0.5);
   EXPECT_EQ((*value)[1].style.wrench.torque_m, 0);
+}
+
+TEST(RvizFile, HasInteractiveMarkersAndSolidArrows) {
+  const std::string displays = R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/InteractiveMarkers, Enabled: true, Update Topic: /goals/update, Show Descriptions: false,
+       Show Axes: true, Enable Transparency: false}
+    - {Class: rviz/InteractiveMarkers, Enabled: true, Update Topic: /plain/update}
+    - {Class: rviz/PoseArray, Enabled: true, Topic: /grips, Shape: Arrow (3D), Shaft Length: 0.5, Head Length: 0.25}
+    - {Class: rviz/Path, Enabled: true, Topic: /plan, Pose Style: Arrows, Head Length: 0.3, Pose Color: 255; 0; 0}
+  Tools: [)";
+  const auto topics_of = [&](const std::string& tools) {
+    return ReadText(displays + tools + "]\n").topics;
+  };
+  const auto topics = topics_of("{Class: rviz/Interact}, {Class: rviz/MoveCamera}");
+  ASSERT_EQ(topics.size(), 4u);
+  EXPECT_EQ(topics[0].name + topics[0].style, "/goals/update(names=off,shape=axes,alpha=1)");
+  EXPECT_EQ(topics[1].name + topics[1].style, "/plain/update");
+  EXPECT_EQ(topics[2].style, "(shape=arrows,size=0.75)");
+  EXPECT_EQ(topics[3].style, "(shape=arrows,pose_color=#ff0000,pose_size=0.4)");
+  const auto without = topics_of("{Class: rviz/MoveCamera}, {Class: rviz/Interact}");
+  EXPECT_EQ(without.at(1).style, "(handles=off)") << "Interact is not the active tool";
+  ShownTopicsValue value;
+  value.Parse("/a" + topics[3].style + ",/b" + without[1].style);
+  EXPECT_TRUE((*value)[0].style.has_arrows);
+  EXPECT_EQ((*value)[0].style.poses.size_m, 0.4);
+  EXPECT_FALSE((*value)[1].style.has_handles);
+}
+
+TEST(RvizFile, LeavesOutNamespacesOfMarkersOfOthers) {
+  const RvizPicture picture = ReadText(WithDisplays(
+      "    - {Class: rviz/MarkerArray, Enabled: true, Name: City, Marker Topic: /city,\n"
+      "       Namespaces: {trees: false, roads: true, com: false, \"my poles\": false, a|b: "
+      "false}}\n"));
+  ASSERT_EQ(picture.topics.size(), 1u);
+  EXPECT_EQ(picture.topics[0].style, "(without=trees|my poles)");
+  EXPECT_THAT(picture.remarks, ElementsAre(HasSubstr("'City': the namespace 'a|b' is not left out"),
+                                           HasSubstr("current view has no Class")));
+  ShownTopicsValue value;
+  value.Parse("/city" + picture.topics[0].style);
+  EXPECT_THAT((*value)[0].style.frames.hidden, ElementsAre("trees", "my poles"));
+}
+
+TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
+  const auto remarks_of = [](const std::string& display) {
+    return ReadText(WithDisplays("    - {Enabled: true, Name: A, " + display + "}\n")).remarks;
+  };
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: -0.9}", "Offset is not taken: the floor"},
+      {"Class: rviz/Grid, Reference Frame: base_link", "Reference Frame 'base_link': the floor"},
+      {"Class: rviz/Path, Topic: /a, Offset: {X: 1, Y: 0, Z: 0}", "Offset is not taken: the path"},
+      {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},
+      {"Class: rviz/RobotModel, Links: {a: {Value: false}, b: {Value: true}, c: {Value: false}}",
+       "links that are off are drawn: a and 1 others"},
+      {"Class: rviz/Image, Image Topic: /a, Normalize Range: false", "Normalize Range is off"},
+      {"Class: rviz/LaserScan, Topic: /a, Style: Points", "Style 'Points' is drawn as squares"}};
+  for (const auto& [display, remark] : cases) {
+    EXPECT_THAT(remarks_of(display), Contains(HasSubstr("'A': " + remark))) << display;
+  }
+  for (const std::string plain :
+       {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: 0}, Reference Frame: <Fixed Frame>",
+        "Class: rviz/RobotModel, Links: {a: {Value: true}, All Links Enabled: true}"}) {
+    EXPECT_THAT(remarks_of(plain), Not(Contains(HasSubstr("'A'")))) << plain;
+  }
+}
+
+TEST(RvizFile, HasTheAlphaOfTheFirstModelForPeople) {
+  const auto opacity_of = [](const std::string& first) {
+    auto settings = SettingsOf(
+        ReadText(WithDisplays("    - {Class: rviz/RobotModel, Enabled: true" + first +
+                              "}\n    - {Class: rviz/RobotModel, Enabled: true, Alpha: 0.25}\n")));
+    return settings["body_opacity"];
+  };
+  EXPECT_EQ(opacity_of(", Alpha: 0.5"), "0.5");
+  EXPECT_EQ(opacity_of(", Alpha: 1"), "");
 }
 
 TEST(RvizFile, ShowsTopicsAlsoWithoutADisplayOfMarkers) {
@@ -501,6 +583,16 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(covariance=-1)",
                           "/a(covariance_alpha=2)",
                           "/a(covariance_color=red)",
+                          "/a(without=)",
+                          "/a(without=a||b)",
+                          "/a(turn_covariance=-1)",
+                          "/a(turn_covariance_alpha=2)",
+                          "/a(turn_covariance_color=red)",
+                          "/a(turn_covariance_offset=0)",
+                          "/a(turn_covariances=1)",
+                          "/a(pose_size=0)",
+                          "/a(pose_color=red)",
+                          "/a(handles=no)",
                           "/a(linear=far)",
                           "tf:**",
                           "tf:*,tf:*",

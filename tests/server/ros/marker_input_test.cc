@@ -78,6 +78,23 @@ TEST(MarkerInput, TreatsAnUnsetOrientationAsIdentity) {
   EXPECT_NEAR(ToSceneMarker(turned)->pose.orientation.z(), std::sqrt(0.5), 1e-12);
 }
 
+// As the rings of interactive markers have them.
+TEST(MarkerInput, TrianglesMayHaveOneColorEach) {
+  Marker triangles = Of(Marker::TRIANGLE_LIST);
+  triangles.points.resize(6);
+  triangles.points[1].x = triangles.points[2].y = triangles.points[4].x = triangles.points[5].z = 1;
+  triangles.colors.resize(2);
+  for (auto& color : triangles.colors) color.a = 1;
+  triangles.colors[1].g = 1;
+  const auto marker = ToSceneMarker(triangles);
+  ASSERT_TRUE(marker) << marker.error().text;
+  ASSERT_EQ(marker->colors.size(), 6u);
+  EXPECT_EQ(marker->colors[2].y(), 0);
+  EXPECT_EQ(marker->colors[3].y(), 1);
+  triangles.colors.resize(3);
+  EXPECT_FALSE(ToSceneMarker(triangles));
+}
+
 TEST(MarkerInput, RejectsInvalidMarkersByNameAndReason) {
   MarkerStore store;
   Marker bad = Cube(7);

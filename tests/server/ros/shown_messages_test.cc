@@ -5,6 +5,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -253,6 +254,102 @@ TEST(ShownMessages, APoseHasTheEllipsoidOfItsCovarianceIfTold) {
   EXPECT_EQ(ShownOf(odometry, style).at(1).action, Marker::DELETE);
   covariance[0] = std::nan("");
   EXPECT_EQ(ShownOf(odometry, style).at(1).action, Marker::DELETE);
+}
+
+// A marker turns its z to here.
+Eigen::Vector3d NormalOf(const Marker& marker) {
+  const geometry_msgs::Quaternion& q = marker.pose.orientation;
+  return Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Eigen::Vector3d::UnitZ();
+}
+
+Eigen::Vector3d PlaceOf(const Marker& marker) {
+  return {marker.pose.position.x, marker.pose.position.y, marker.pose.position.z};
+}
+
+TEST(ShownMessages, APoseHasDiscsWhereItsAxesMayPointIfTold) {
+  auto guess = InFrame<geometry_msgs::PoseWithCovarianceStamped>();
+  guess.pose.pose.position.x = 3;
+  guess.pose.pose.orientation.w = guess.pose.pose.orientation.z = std::sqrt(0.5);  // x is y
+  auto& covariance = guess.pose.covariance;
+  covariance[21] = 0.04;  // rad²: about x
+  covariance[28] = 0.01;
+  covariance[35] = 0.0025;
+  ShownStyle style;
+  style.turn_covariance.scale = 2;
+  style.turn_covariance.offset_m = 0.5;
+  const ShownMarkers markers = ShownOf(guess, style);
+  ASSERT_THAT(markers, SizeIs(4));
+  EXPECT_EQ(RgbOf(markers[1].color), (std::array<int, 3>{255, 255, 127}));
+  EXPECT_FLOAT_EQ(markers[1].color.a, 0.5F);
+  // The tip of x goes sideways by what turns about y and z, and so on.
+  const std::array<std::array<double, 2>, 3> deviations = {{{0.1, 0.05}, {0.2, 0.05}, {0.2, 0.1}}};
+  const std::array<Eigen::Vector3d, 3> axes = {
+      {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}};  // of the pose, in its frame
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Marker& disc = markers[1 + i];
+    EXPECT_EQ(disc.type, Marker::CYLINDER);
+    EXPECT_TRUE(PlaceOf(disc).isApprox(Eigen::Vector3d(3, 0, 0) + 0.5 * axes.at(i), 1e-9)) << i;
+    EXPECT_NEAR(std::abs(NormalOf(disc).dot(axes.at(i))), 1, 1e-9) << i;
+    EXPECT_NEAR(disc.scale.x, 2 * 0.5 * std::tan(2 * deviations.at(i)[0]), 1e-9) << i;
+    EXPECT_NEAR(disc.scale.y, 2 * 0.5 * std::tan(2 * deviations.at(i)[1]), 1e-9) << i;
+  }
+  style.turn_covariance.has_axis_colors = true;
+  EXPECT_EQ(RgbOf(ShownOf(guess, style).at(2).color), (std::array<int, 3>{0, 255, 0}));
+  covariance.fill(0);
+  covariance[14] = 1;
+  EXPECT_EQ(ShownOf(guess, style).at(3).action, Marker::DELETE) << "sure";
+  covariance[21] = 1e6;
+  EXPECT_LT(ShownOf(guess, style).at(2).scale.x, 100) << "no more than 89 degrees";
+  covariance[21] = std::nan("");
+  EXPECT_EQ(ShownOf(guess, style).at(2).action, Marker::DELETE);
+}
+
+TEST(ShownMessages, APoseInThePlaneHasAWedge) {
+  auto odometry = InFrame<nav_msgs::Odometry>();
+  odometry.pose.pose.orientation.w = 1;
+  odometry.pose.covariance[35] = 0.01;
+  ShownStyle style;
+  style.turn_covariance.scale = 1;
+  const ShownMarkers markers = ShownOf(odometry, style);
+  ASSERT_THAT(markers, SizeIs(4));
+  ASSERT_THAT(markers[1].points, SizeIs(3));
+  EXPECT_DOUBLE_EQ(markers[1].points[1].x, 1);
+  EXPECT_DOUBLE_EQ(markers[1].points[2].y, std::tan(0.1));
+  EXPECT_EQ(markers[2].action, Marker::DELETE) << "if it was not in the plane before";
+}
+
+TEST(ShownMessages, PosesInAnArrayAndAlongAPathAreSolidArrowsIfTold) {
+  const auto box_of = [](const Marker& marker) {
+    Eigen::AlignedBox3d box;
+    for (const auto& point : marker.points) box.extend(Eigen::Vector3d(point.x, point.y, point.z));
+    return box;
+  };
+  ShownStyle style;
+  style.has_arrows = true;
+  auto array = InFrame<geometry_msgs::PoseArray>();
+  array.poses.resize(1);
+  array.poses[0].position.x = 2;
+  const ShownMarkers arrows = ShownOf(array, style);
+  EXPECT_EQ(arrows.at(0).type, Marker::TRIANGLE_LIST);
+  EXPECT_NEAR(box_of(arrows[0]).max().x(), 2.3, 1e-9);
+  EXPECT_NEAR(box_of(arrows[0]).sizes().y(), 0.03, 1e-9) << "of its head";
+  array.poses.resize(5000);
+  EXPECT_EQ(ShownOf(array, style).at(0).type, Marker::LINE_LIST) << "flat, if they are many";
+  auto path = InFrame<nav_msgs::Path>();
+  path.poses.resize(2);
+  path.poses[1].pose.position.x = 1;
+  style.poses.size_m = 0.6;
+  style.poses.color = Rgb{0, 0, 1};
+  const ShownMarkers markers = ShownOf(path, style);
+  ASSERT_THAT(markers, SizeIs(2));
+  EXPECT_EQ(markers[0].type, Marker::LINE_STRIP);
+  EXPECT_EQ(RgbOf(markers[0].color), (std::array<int, 3>{25, 255, 0}));
+  EXPECT_EQ(RgbOf(markers[1].color), (std::array<int, 3>{0, 0, 255}));
+  EXPECT_NEAR(box_of(markers[1]).max().x(), 1.6, 1e-9);
+  path.poses.clear();
+  EXPECT_EQ(ShownOf(path, style).at(1).action, Marker::DELETE);
+  path.poses.resize(1000);
+  EXPECT_EQ(ToMarkers(path, style).error().text, "1000 poses: expected at most 555");
 }
 
 // As human-dynamics-estimation shows the efforts of joints: a sphere at each, green to red.

@@ -2,10 +2,13 @@
 // has saved: a robot that TF moves, point clouds, a path, a force, a value, a marker and the
 // person, from a camera that goes with a frame.
 #include <fmt/ranges.h>
+#include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
+#include <interactive_markers/interactive_marker_server.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
@@ -76,6 +79,25 @@ constexpr char kThingsOfConfig[] =
        Namespaces: {}}
 )";
 
+constexpr char kPosesOfConfig[] =
+    R"(    - {Class: rviz/InteractiveMarkers, Name: Handles, Enabled: true, Value: true,
+       Update Topic: /handles/update, Show Descriptions: false, Show Axes: false,
+       Enable Transparency: false}
+    - {Class: rviz/PoseWithCovariance, Name: Guess, Enabled: true, Value: true, Topic: /guess,
+       Shape: Arrow, Color: 255; 0; 140, Alpha: 1, Shaft Length: 1, Head Length: 0.3,
+       Shaft Radius: 0.05, Head Radius: 0.1, Covariance: {Value: true,
+       Position: {Value: true, Alpha: 1, Color: 60; 160; 255, Scale: 1},
+       Orientation: {Value: true, Alpha: 1, Color: 230; 30; 220, Color Style: Unique, Frame: Local,
+       Offset: 0.8, Scale: 1}}}
+    - {Class: rviz/PoseArray, Name: Grips, Enabled: true, Value: true, Topic: /grips, Alpha: 1,
+       Shape: Arrow (3D), Color: 0; 200; 255, Shaft Length: 0.69, Shaft Radius: 0.03,
+       Head Length: 0.21, Head Radius: 0.09}
+    - {Class: rviz/Path, Name: Plan, Enabled: true, Value: true, Topic: /plan, Alpha: 1,
+       Line Style: Billboards, Line Width: 0.02, Color: 130; 60; 220, Pose Style: Arrows,
+       Pose Color: 230; 204; 13, Shaft Length: 0.1, Head Length: 0.2, Shaft Diameter: 0.1,
+       Head Diameter: 0.3}
+)";
+
 // Without the frames whose names follow.
 constexpr char kFramesOfConfig[] =
     R"(    - Class: rviz/TF
@@ -126,6 +148,13 @@ const std::vector<Thing> kPartsOfFrames = {{"x axes", {255, 0, 0}},
                                            {"z axes", {0, 0, 255}},
                                            {"heads of arrows", {255, 26, 153}}};
 
+// Of the rings and arrows of the marker: red, green and blue for the axes.
+const std::vector<Thing> kPoses = {
+    {"handles of x", {255, 0, 0}},         {"handles of y", {0, 255, 0}},
+    {"handles of z", {0, 0, 255}},         {"position", {60, 160, 255}},
+    {"orientation", {230, 30, 220}},       {"pose", {255, 0, 140}},
+    {"poses of the array", {0, 200, 255}}, {"poses of the path", {230, 204, 13}}};
+
 struct Place {
   std::array<double, 4> edges = {};  // px: left, right, top, bottom
   std::size_t pixels = 0;
@@ -153,7 +182,7 @@ Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels,
   if (x.empty()) return {};
   std::sort(x.begin(), x.end());
   std::sort(y.begin(), y.end());
-  const std::size_t few = x.size() / 100;  // of something else
+  const std::size_t few = x.size() / 25;  // of something else
   return {{x[few], x[x.size() - 1 - few], y[few], y[y.size() - 1 - few]}, x.size()};
 }
 
@@ -171,6 +200,8 @@ class RVizScene : public testing::RVizProgram {
     PublishLatched<geometry_msgs::WrenchStamped>("/push", Push());
     PublishLatched<nav_msgs::Path>("/plan", Plan());
     PublishLatched<visualization_msgs::Marker>("/wall", Wall());
+    PublishLatched<geometry_msgs::PoseWithCovarianceStamped>("/guess", Guess());
+    PublishLatched<geometry_msgs::PoseArray>("/grips", Grips());
   }
 
   // Of RViz itself: saves its configuration.
@@ -330,6 +361,37 @@ class RVizScene : public testing::RVizProgram {
     return path;
   }
 
+  static geometry_msgs::Pose At(double x, double y, double z, double yaw) {
+    geometry_msgs::Pose pose;
+    pose.position.x = x;
+    pose.position.y = y;
+    pose.position.z = z;
+    pose.orientation.z = std::sin(yaw / 2);
+    pose.orientation.w = std::cos(yaw / 2);
+    return pose;
+  }
+
+  static geometry_msgs::PoseWithCovarianceStamped Guess() {
+    geometry_msgs::PoseWithCovarianceStamped guess;
+    guess.header.frame_id = "world";
+    guess.pose.pose = At(0.4, 1.2, 0.5, -0.1);
+    auto& covariance = guess.pose.covariance;
+    covariance[0] = 0.01;  // m²: of x, y and z
+    covariance[7] = 0.04;
+    covariance[14] = 0.0025;
+    covariance[21] = covariance[28] = 0.01;  // rad²: about x, y and z
+    covariance[35] = 0.04;
+    covariance[29] = covariance[34] = 0.008;
+    return guess;
+  }
+
+  static geometry_msgs::PoseArray Grips() {
+    geometry_msgs::PoseArray grips;
+    grips.header.frame_id = "sensor";
+    for (int i = 0; i < 4; ++i) grips.poses.push_back(At(0.1 * i, 0.25 * i, 0, 0.3 * i));
+    return grips;
+  }
+
   static visualization_msgs::Marker Wall() {
     visualization_msgs::Marker wall;
     wall.header.frame_id = "world";
@@ -368,6 +430,46 @@ TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
   StartBoth(saved);
   ExpectBothToShow(kThings);
   SavePictures("scene");
+}
+
+// One that moves along each axis and turns about it; RViz makes its arrows and rings.
+visualization_msgs::InteractiveMarker MarkerOfSixDegrees() {
+  using visualization_msgs::InteractiveMarkerControl;
+  visualization_msgs::InteractiveMarker marker;
+  marker.header.frame_id = "base";
+  marker.name = "goal";
+  marker.scale = 0.5F;
+  for (int axis = 0; axis < 3; ++axis) {
+    InteractiveMarkerControl control;
+    control.orientation.w = std::sqrt(0.5);
+    (axis == 0   ? control.orientation.x
+     : axis == 1 ? control.orientation.z
+                 : control.orientation.y) = std::sqrt(0.5);
+    control.interaction_mode = InteractiveMarkerControl::MOVE_AXIS;
+    marker.controls.push_back(control);
+    control.interaction_mode = InteractiveMarkerControl::ROTATE_AXIS;
+    marker.controls.push_back(control);
+  }
+  return marker;
+}
+
+// A server in this process, as other nodes have it.
+TEST_F(RVizScene, HasInteractiveMarkersAndUncertainPosesAsRVizShowsThem) {
+  Write("view.rviz", std::string(kPersonOfConfig) + kPosesOfConfig + kViewOfConfig);
+  const Process publisher({KINESCOPE_ROBOT_STATE_PUBLISHER, "__name:=robot_state_publisher"});
+  interactive_markers::InteractiveMarkerServer server("handles", "", true);
+  server.insert(MarkerOfSixDegrees());
+  server.applyChanges();
+  StartBoth((folder_ / "view.rviz").string());
+  geometry_msgs::Pose moved;
+  moved.position.x = 0.2;
+  moved.position.z = 1.1;
+  moved.orientation.w = std::cos(0.3);
+  moved.orientation.z = std::sin(0.3);
+  server.setPose("goal", moved);
+  server.applyChanges();
+  ExpectBothToShow(kPoses);
+  SavePictures("poses");
 }
 
 TEST_F(RVizScene, HasTheFramesOfTfAsRVizShowsThem) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/JointState.h>
+#include <visualization_msgs/InteractiveMarkerInit.h>
+#include <visualization_msgs/InteractiveMarkerUpdate.h>
 
 #include <functional>
 #include <limits>
@@ -185,6 +187,53 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   EXPECT_FLOAT_EQ(recorded.markers.back()[0]->scale.x(), 0.1F);
   EXPECT_THAT(recorded.counters.rejected,
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
+}
+
+TEST_F(BagSurroundingsTest, AreMarkersWithoutTheNamespacesThatAreLeftOut) {
+  ShownTopic topic{"/markers"};
+  topic.style.frames.hidden = {"walls"};
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        Marker door = CubeIn("world", 7);
+        door.ns = "doors";
+        bag.write("/markers", TimeOf(kBegin - 1), CubeIn("world", 1));
+        bag.write("/markers", TimeOf(kBegin - 1), door);
+        bag.write("/others", TimeOf(kBegin - 1), CubeIn("world", 2));
+      },
+      {{topic}, {}});
+  ASSERT_THAT(CountsOf(recorded), ElementsAre(2, 2, 2, 2, 2, 2));
+  EXPECT_EQ(recorded.markers[0][0]->id, 7);
+  EXPECT_EQ(recorded.markers[0][1]->id, 2);
+}
+
+TEST_F(BagSurroundingsTest, AreInteractiveMarkersWithTheirUpdates) {
+  visualization_msgs::InteractiveMarkerInit all;
+  all.server_id = "goals";
+  all.markers.resize(1);
+  all.markers[0].header.frame_id = "world";
+  all.markers[0].name = "goal";
+  all.markers[0].controls.resize(1);
+  all.markers[0].controls[0].always_visible = 1U;
+  all.markers[0].controls[0].markers = {CubeIn("", 0)};
+  visualization_msgs::InteractiveMarkerUpdate moved;
+  moved.server_id = "goals";
+  moved.seq_num = 1;
+  moved.type = moved.UPDATE;
+  moved.poses.resize(1);
+  moved.poses[0].header.frame_id = "world";
+  moved.poses[0].name = "goal";
+  moved.poses[0].pose.position.x = 4;
+  const Recorded recorded = Read(
+      [&](rosbag::Bag& bag) {
+        bag.write("/goals/update_full", TimeOf(kBegin - 1), all);
+        bag.write("/goals/update", TimeOf(kBegin + 2 * kStep + 1), moved);
+      },
+      {{{"/goals/update"}}, {}});
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(1, 1, 1, 1, 1, 1));
+  EXPECT_EQ(recorded.markers[2][0]->pose.position.x(), 0);
+  EXPECT_EQ(recorded.markers[3][0]->pose.position.x(), 4);
+  EXPECT_EQ(recorded.markers[3][0]->ns, "goals");
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
 }
 
 TEST_F(BagSurroundingsTest, AreEarlierMessagesToo) {
