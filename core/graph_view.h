@@ -98,7 +98,7 @@ struct ShownStyle {
   bool has_spheres = false, has_cubes = false;
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
-  bool has_handles = true;  // of interactive markers: what is there for the mouse
+  bool has_handles = true;  // of interactive markers: those of RViz's Interact tool alone
   WrenchArrows wrench = {};
   FramesStyle frames = {};
   CovarianceStyle covariance = {};

@@ -183,10 +183,9 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (is_one_of({"covariance", "covariance_color", "covariance_alpha"})) {
     return TakeCovariance(key, text, style.covariance);
   }
-  if (StartsWith(key, "turn_covariance")) {
-    return is_one_of({"turn_covariance", "turn_covariance_color", "turn_covariance_alpha",
-                      "turn_covariance_offset"}) &&
-           TakeTurnCovariance(key, text, style.turn_covariance);
+  if (is_one_of({"turn_covariance", "turn_covariance_color", "turn_covariance_alpha",
+                 "turn_covariance_offset"})) {
+    return TakeTurnCovariance(key, text, style.turn_covariance);
   }
   if (is_one_of({"pose_size", "pose_color"})) return TakePoses(key, text, style.poses);
   if (key == "handles") {

@@ -1,4 +1,4 @@
-/// Interactive markers as RViz shows them to somebody without a mouse: the markers of each control,
+/// Interactive markers as RViz draws them, which nobody can move here: the markers of each control,
 /// and the description as a title. They are moved and changed by messages that refer to those
 /// before, so there is one object per topic. Markers have ids, but no namespace. One thread.
 #pragma once

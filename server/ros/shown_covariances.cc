@@ -2,9 +2,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "server/ros/shown_messages.h"
 #include "server/ros/shown_parts.h"
@@ -86,8 +85,7 @@ double SidewaysOf(double deviation_rad) {
 
 std_msgs::ColorRGBA TintOfAxis(int axis, const TurnCovarianceStyle& style) {
   if (!style.has_axis_colors) return Tint(style.color, style.alpha, Color(255, 255, 127));
-  return Tint({}, style.alpha,
-              Color(axis == 0 ? 255 : 0, axis == 1 ? 255 : 0, axis == 2 ? 255 : 0));
+  return Tint({}, style.alpha, ColorOfAxis(axis));
 }
 
 // Where the tip of an axis may be: an ellipse about it. A small turn w moves the tip by w x axis.
@@ -121,9 +119,8 @@ Marker WedgeOf(const std_msgs::Header& header, const geometry_msgs::Pose& pose, 
                const TurnCovarianceStyle& style) {
   const double side = SidewaysOf(style.scale * std::sqrt(std::max(variance, 0.0)));
   if (!(side > 0)) return Without(header, kFirstTurn);
-  Marker wedge = MarkerOf(header, kFirstTurn, Marker::TRIANGLE_LIST, TintOfAxis(2, style));
+  Marker wedge = TrianglesOf(header, kFirstTurn, TintOfAxis(2, style));
   wedge.pose = PoseAt(PositionOf(pose), TurnOf(pose));
-  wedge.scale.x = wedge.scale.y = wedge.scale.z = 1;
   const double length = style.offset_m;
   wedge.points = {PointAt(0, 0, 0), PointAt(length, -length * side, 0),
                   PointAt(length, length * side, 0)};

@@ -117,8 +117,7 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::GridCells& message, const ShownSty
   if (message.cells.size() > kMaxMarkerPoints / kCorners) {
     return TooLarge("cells", message.cells.size(), kMaxMarkerPoints / kCorners);
   }
-  Marker cells = MarkerOf(message.header, 0, Marker::TRIANGLE_LIST, In(style, Color(25, 255, 0)));
-  cells.scale.x = cells.scale.y = cells.scale.z = 1;
+  Marker cells = TrianglesOf(message.header, 0, In(style, Color(25, 255, 0)));
   const auto width = static_cast<double>(message.cell_width),
              height = static_cast<double>(message.cell_height);
   for (const geometry_msgs::Point& cell : message.cells) {
@@ -145,9 +144,8 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const Show
   ShownStyle seen_through = style;
   seen_through.color.reset();
   seen_through.alpha = style.alpha.value_or(0.7);
-  Marker map = MarkerOf(message.header, 0, Marker::TRIANGLE_LIST, Color(255, 255, 255));
+  Marker map = TrianglesOf(message.header, 0, Color(255, 255, 255));
   map.pose = info.origin;
-  map.scale.x = map.scale.y = map.scale.z = 1;
   const double metres = static_cast<double>(info.resolution) * step;
   for (const MapRectangle& each : *rectangles) {
     if (style.is_costmap && each.cell == 0) continue;

@@ -93,10 +93,6 @@ ToMarkersOfBytes FindShownMessage(const std::string& md5sum) {
   return nullptr;
 }
 
-void NameByTopic(ShownMarkers& markers, const std::string& topic) {
-  for (Marker& marker : markers) marker.ns = WithoutSlashes(topic);
-}
-
 std::string NamesOfShownMessages() {
   std::string names;
   for (const ShownType& type : ShownTypes())

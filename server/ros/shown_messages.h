@@ -112,9 +112,6 @@ using ToMarkersOfBytes = Taken<ShownMarkers> (*)(const std::vector<std::uint8_t>
 /// Null unless messages of this type are shown.
 ToMarkersOfBytes FindShownMessage(const std::string& md5sum);
 
-/// Names the markers of a message by its topic, as a legend has them: "plan" for "/plan".
-void NameByTopic(ShownMarkers& markers, const std::string& topic);
-
 /// "geometry_msgs/PointStamped, ..."
 std::string NamesOfShownMessages();
 

@@ -17,6 +17,10 @@ std_msgs::ColorRGBA Color(int red, int green, int blue) {
   return color;
 }
 
+std_msgs::ColorRGBA ColorOfAxis(int axis) {
+  return Color(axis == 0 ? 255 : 0, axis == 1 ? 255 : 0, axis == 2 ? 255 : 0);
+}
+
 std_msgs::ColorRGBA In(const ShownStyle& style, std_msgs::ColorRGBA color) {
   if (style.color) {
     color.r = static_cast<float>((*style.color)[0]);
@@ -37,6 +41,12 @@ Marker MarkerOf(const std_msgs::Header& header, int id, int type,
   marker.pose.orientation.w = 1;
   marker.color = color;
   return marker;
+}
+
+Marker TrianglesOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color) {
+  Marker triangles = MarkerOf(header, id, Marker::TRIANGLE_LIST, color);
+  triangles.scale.x = triangles.scale.y = triangles.scale.z = 1;
+  return triangles;
 }
 
 Marker Without(const std_msgs::Header& header, int id) {

@@ -18,10 +18,15 @@ namespace kinescope::ros_bridge {
 
 /// Of 0 to 255 each; opaque.
 std_msgs::ColorRGBA Color(int red, int green, int blue);
+/// Red, green and blue for x (0), y and z.
+std_msgs::ColorRGBA ColorOfAxis(int axis);
 /// `color`, unless the style has another one.
 std_msgs::ColorRGBA In(const ShownStyle& style, std_msgs::ColorRGBA color);
 visualization_msgs::Marker MarkerOf(const std_msgs::Header& header, int id, int type,
                                     const std_msgs::ColorRGBA& color);
+/// A list of triangles, without points yet, in metres.
+visualization_msgs::Marker TrianglesOf(const std_msgs::Header& header, int id,
+                                       const std_msgs::ColorRGBA& color);
 /// Deletes the marker of this id.
 visualization_msgs::Marker Without(const std_msgs::Header& header, int id);
 /// Deletes it if it has no points.

@@ -37,8 +37,7 @@ void AddAxes(const geometry_msgs::Pose& pose, double length, double width, const
   for (int i = 0; i < 3; ++i) {
     lines.points.push_back(PointAt(at));
     lines.points.push_back(PointAt(at + axes.col(i)));
-    const auto color = In(translucent, Color(i == 0 ? 255 : 0, i == 1 ? 255 : 0, i == 2 ? 255 : 0));
-    lines.colors.insert(lines.colors.end(), 2, color);
+    lines.colors.insert(lines.colors.end(), 2, In(translucent, ColorOfAxis(i)));
   }
 }
 
@@ -82,12 +81,6 @@ void AddFlatArrow(const geometry_msgs::Pose& pose, double length, Marker& lines)
     corner(1, 0);
     corner(0.75, 0.2 * side);
   }
-}
-
-Marker TrianglesOf(const std_msgs::Header& header, int id, const std_msgs::ColorRGBA& color) {
-  Marker triangles = MarkerOf(header, id, Marker::TRIANGLE_LIST, color);
-  triangles.scale.x = triangles.scale.y = triangles.scale.z = 1;
-  return triangles;
 }
 
 // The line and the axes of its poses as one marker, which has one name in a legend.

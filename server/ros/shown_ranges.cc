@@ -31,9 +31,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::Range& message, const ShownStyl
   const double radius = range * std::tan(field / 2);
   auto color = Color(255, 255, 255);
   color.a = 0.5F;
-  visualization_msgs::Marker cone =
-      MarkerOf(message.header, 0, visualization_msgs::Marker::TRIANGLE_LIST, In(style, color));
-  cone.scale.x = cone.scale.y = cone.scale.z = 1;
+  visualization_msgs::Marker cone = TrianglesOf(message.header, 0, In(style, color));
   if (!(range > 0 && radius > 0)) return OneOrNone(std::move(cone));
   const auto corner = [&](int i) {
     const double angle = 2 * M_PI * i / kSides;

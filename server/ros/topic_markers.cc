@@ -48,23 +48,26 @@ std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& 
                                           const ShownStyle& style, const std::string& md5sum,
                                           const std::vector<std::uint8_t>& bytes,
                                           ShownMarkers& out) {
+  ShownMarkers markers;
+  std::string source = name;
+  std::optional<Refusal> refusal;
   if (IsInteractive(md5sum)) {
-    InteractiveMarkers& markers = interactive_[topic];
-    const std::size_t before = out.size();
-    auto refusal = Is<InteractiveMarkerInit>(md5sum)
-                       ? TakeInteractive<InteractiveMarkerInit>(markers, style, bytes, out)
-                       : TakeInteractive<InteractiveMarkerUpdate>(markers, style, bytes, out);
-    const std::string server =
-        EndsWithUpdate(name) ? name.substr(0, name.size() - kUpdate.size()) : name;
-    for (std::size_t i = before; i < out.size(); ++i) out[i].ns = WithoutSlashes(server);
-    return refusal;
+    InteractiveMarkers& servers = interactive_[topic];
+    refusal = Is<InteractiveMarkerInit>(md5sum)
+                  ? TakeInteractive<InteractiveMarkerInit>(servers, style, bytes, markers)
+                  : TakeInteractive<InteractiveMarkerUpdate>(servers, style, bytes, markers);
+    if (EndsWithUpdate(name)) source.resize(name.size() - kUpdate.size());
+  } else {
+    Taken<ShownMarkers> shown = FindShownMessage(md5sum)(bytes, style);
+    if (!shown) return shown.error();
+    if (!shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
+    markers = *std::move(shown);
   }
-  Taken<ShownMarkers> shown = FindShownMessage(md5sum)(bytes, style);
-  if (!shown) return shown.error();
-  if (!shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
-  NameByTopic(*shown, name);
-  for (visualization_msgs::Marker& marker : *shown) out.push_back(std::move(marker));
-  return std::nullopt;
+  for (visualization_msgs::Marker& marker : markers) {
+    marker.ns = WithoutSlashes(source);
+    out.push_back(std::move(marker));
+  }
+  return refusal;
 }
 
 std::string TopicOfAll(const std::string& topic) {

@@ -21,7 +21,8 @@ class TopicMarkers {
   /// Whether messages of this type are shown as markers.
   static bool IsShown(const std::string& md5sum);
 
-  /// Of a message of topic number `topic`; named by the topic. @pre IsShown(md5sum)
+  /// Of a message of topic number `topic`, in a namespace as a legend has it: "plan" for "/plan",
+  /// "goals" for "/goals/update" of interactive markers. @pre IsShown(md5sum)
   /// @param out  markers to add, change and delete are appended, also where something is refused
   [[nodiscard]] std::optional<Refusal> Take(std::size_t topic, const std::string& name,
                                             const ShownStyle& style, const std::string& md5sum,

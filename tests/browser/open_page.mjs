@@ -233,3 +233,7 @@ export function countPixels({ data }, test) {
   for (let i = 0; i < data.length; i += 4) if (test(data[i], data[i + 1], data[i + 2])) ++count;
   return count;
 }
+
+/** Names of the cameras whose button is pressed: one, or none. */
+export const pressedCameras = (page) =>
+  page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));

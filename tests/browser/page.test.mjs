@@ -4,7 +4,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
+import { chooseTab, closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, pressedCameras, saveScreenshot, startFixture }
   from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -235,10 +235,9 @@ test('the named cameras rotate the view until the user moves it', async () => {
   await page.locator('#cameras button').first().waitFor(LONG);
   assert.deepEqual(await page.$$eval('#cameras button', (all) => all.map((button) => button.dataset.camera)),
     ['front', 'back', 'left', 'right', 'top', 'iso', 'three_quarter']);
-  const pressed = () => page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));
-  assert.deepEqual(await pressed(), ['three_quarter']);
+  assert.deepEqual(await pressedCameras(page), ['three_quarter']);
   await page.click('[data-camera="front"]');
-  assert.deepEqual(await pressed(), ['front']);
+  assert.deepEqual(await pressedCameras(page), ['front']);
   // From the front, the person's right shoulder is on the left of the picture: red on both sides.
   await seePixels(page, 'red', isRed, 300);
   const box = await page.locator('#view canvas').boundingBox();
@@ -246,7 +245,7 @@ test('the named cameras rotate the view until the user moves it', async () => {
   await page.mouse.down();
   await page.mouse.move(box.x + box.width / 2 + 120, box.y + box.height / 2, { steps: 4 });
   await page.mouse.up();
-  assert.deepEqual(await pressed(), []);
+  assert.deepEqual(await pressedCameras(page), []);
   await close();
 });
 

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test as nodeTest } from 'node:test';
 import { setTimeout } from 'node:timers/promises';
-import { endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot, settled } from './open_page.mjs';
+import { endWithTests, openPage, pixelsOf, pixelsOfPng, pressedCameras, saveScreenshot, settled } from './open_page.mjs';
 import {
   cameraOf, folder, grown, LONG, mask, MARKS, onlyView, overlap, PLAIN, record, serve, serverPixels, stateOf, whatCovers,
 } from './same_pixels.mjs';
@@ -39,7 +39,7 @@ test('a translucent body seen by the camera that the server was given covers the
   const body = ['--body_opacity', '0.6', '--style', 'clay'];  // a translucent black shoe cannot be told from the ground
   const site = await serve(file, ['--stop_at', '0.5', '--pictures', 'off', ...camera, ...body]);
   const { page, covered, size, close } = await whatCovers(site, 'own', SKIN, { 'status-word': 'Recording' });
-  assert.deepEqual(await page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera)), ['own']);
+  assert.deepEqual(await pressedCameras(page), ['own']);
   await saveScreenshot(page, 'same_own_camera');
   const rest = `shadows,${MARKS}`;
   const draw = (hidden) => serverPixels(file, camera, size, [...PLAIN, hidden, ...body], 0.5);
@@ -54,13 +54,12 @@ test('a translucent body seen by the camera that the server was given covers the
 test('the page begins with the camera that the server was given, and comes back to it', async () => {
   const site = await serve(await record('lift', 1, []), ['--loop', '--pictures', 'off', '--camera', '1.5,2.5,2.4:0,0,0.8']);
   const { page, close } = await openPage(site.url);
-  const pressed = () => page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));
   await page.locator('#cameras button[data-camera="own"][aria-pressed="true"]').waitFor(LONG);
   await page.click('#cameras [data-camera="front"]');
-  assert.deepEqual(await pressed(), ['front']);
+  assert.deepEqual(await pressedCameras(page), ['front']);
   await page.waitForFunction(() => location.href.includes('camera=front'), null, LONG);
   await page.click('#cameras [data-camera="own"]');
-  assert.deepEqual(await pressed(), ['own']);
+  assert.deepEqual(await pressedCameras(page), ['own']);
   await page.waitForFunction(() => !location.href.includes('camera='), null, LONG);
   await close();
   await site.stop();

@@ -2,7 +2,7 @@
 // gone.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, drawSeldom, openPage, PHONE, saveScreenshot, settled, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, drawSeldom, openPage, PHONE, pressedCameras, saveScreenshot, settled, startFixture } from './open_page.mjs';
 
 drawSeldom();
 
@@ -26,7 +26,6 @@ async function open(query = '', options = {}) {
     && Number(document.getElementById('moment').min) < -1, null, LONG);
   return visit;
 }
-const pressed = (page) => page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));
 const addressIs = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(location.search), pattern.source, LONG);
 const noWebGl = (page) => page.addInitScript(() => {
   const before = HTMLCanvasElement.prototype.getContext;
@@ -50,12 +49,12 @@ test('the 3-D view is turned, moved and zoomed by keys, and its arrows do not mo
     }, before, LONG);
     places.push(await page.evaluate(() => new URL(location.href).searchParams.get('camera')));
   }
-  assert.deepEqual(await pressed(page), []);
+  assert.deepEqual(await pressedCameras(page), []);
   assert.equal(new Set(places.slice(0, 4)).size, 4, places.join(' | '));
   assert.equal(await page.textContent('#sample'), sample);
   await page.keyboard.press('f');
   await addressIs(page, /camera=front/);
-  assert.deepEqual(await pressed(page), ['front']);
+  assert.deepEqual(await pressedCameras(page), ['front']);
   assert.deepEqual(problems, []);
   await close();
 });
@@ -91,20 +90,20 @@ test('the key map lists what exists, and its switch turns keys of one character 
   }
   await saveScreenshot(page, 'key_map');
   await page.keyboard.press('f');
-  assert.deepEqual(await pressed(page), ['three_quarter'], 'the map is in front');
+  assert.deepEqual(await pressedCameras(page), ['three_quarter'], 'the map is in front');
   await page.uncheck('#character-keys');
   await page.keyboard.press('Escape');
   await page.locator('#key-map').waitFor({ state: 'hidden', ...LONG });
   assert.equal(await page.textContent('#status-word'), 'Live');
   for (const key of ['f', '1', 'd', '?']) await page.keyboard.press(key);
-  assert.deepEqual(await pressed(page), ['three_quarter']);
+  assert.deepEqual(await pressedCameras(page), ['three_quarter']);
   assert.equal(await page.locator('#key-map').isVisible(), false);
   await page.keyboard.press('Space');
   await page.waitForFunction(() => document.body.dataset.time === 'behind', null, LONG);
   await page.reload();
   await page.waitForFunction(() => document.querySelectorAll('#cameras button').length === 7, null, LONG);
   await page.keyboard.press('f');
-  assert.deepEqual(await pressed(page), ['three_quarter'], 'the browser keeps the choice');
+  assert.deepEqual(await pressedCameras(page), ['three_quarter'], 'the browser keeps the choice');
   await page.click('#show-keys');
   assert.equal(await page.isChecked('#character-keys'), false);
   assert.deepEqual(problems.filter((line) => !line.startsWith('failed: ')), [], 'but for requests that the reload cut short');
@@ -199,7 +198,7 @@ test('an address that is nonsense is a page as it begins', async () => {
   const { page, problems, close } = await open('?person=99&joint=nose,l5_s1&camera=1,2&tab=hidden&view=cinema&theme=pink&window=7');
   await chooseTab(page, 'plots');
   await page.waitForFunction(() => document.getElementById('plot-chosen').textContent === 'L5/S1', null, LONG);
-  assert.deepEqual(await pressed(page), ['three_quarter']);
+  assert.deepEqual(await pressedCameras(page), ['three_quarter']);
   assert.equal(await page.getAttribute('.person >> nth=0', 'aria-pressed'), 'true');
   assert.deepEqual(problems, []);
   await close();

@@ -9,14 +9,12 @@
 #include <vector>
 
 #include "server/ros/marker_input.h"
-#include "server/ros/shown_parts.h"
 #include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
