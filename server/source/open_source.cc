@@ -83,7 +83,7 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
 }
 
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
-                                       const SourceSettings& settings) {
+                                       const SourceSettings& settings, std::int64_t start_at) {
   auto source = OpenSource(url, settings);
   if (source->is_live()) return source;
   if (loop && url == "-") {
@@ -91,7 +91,7 @@ std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
   }
   PacedSource::Open reopen;
   if (loop) reopen = [url, settings] { return OpenSource(url, settings); };
-  return std::make_unique<PacedSource>(std::move(source), std::move(reopen));
+  return std::make_unique<PacedSource>(std::move(source), std::move(reopen), start_at);
 }
 
 std::unique_ptr<Source> OpenUpTo(const std::string& url, std::int64_t stop_at,

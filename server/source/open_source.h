@@ -35,9 +35,10 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
 
 /// Opens a file or the built-in subject at its true rate: samples are delivered when they are due,
 /// stamped with the current time. `loop` starts over at the end; counters and time continue.
-/// A live source is returned unchanged.
+/// `start_at`: as that of PacedSource. A live source is returned unchanged.
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
-                                       const SourceSettings& settings = {});
+                                       const SourceSettings& settings = {},
+                                       std::int64_t start_at = 0);
 
 /// Opens a file or the built-in subject to be read at once up to `stop_at` (ns after the first
 /// sample), as PacedSource::UpTo() does it. @pre the source is not live

@@ -33,10 +33,17 @@ void AddUp(SourceCounters& sum, const SourceCounters& more) {
   for (const auto& [name, count] : more.transport) sum.transport[name] += count;
 }
 
+SourceError EndsBefore(const std::string& source, std::int64_t end, std::int64_t wanted) {
+  std::ostringstream why;
+  why << source << ": ends " << std::fixed << std::setprecision(3) << Secs(end)
+      << " s after its first sample, before " << Secs(wanted) << " s; choose an earlier time";
+  return SourceError(why.str());
+}
+
 }  // namespace
 
-PacedSource::PacedSource(std::unique_ptr<Source> source, Open reopen)
-    : source_(std::move(source)), reopen_(std::move(reopen)) {}
+PacedSource::PacedSource(std::unique_ptr<Source> source, Open reopen, std::int64_t start_at)
+    : source_(std::move(source)), reopen_(std::move(reopen)), start_at_(start_at) {}
 
 std::unique_ptr<PacedSource> PacedSource::UpTo(std::int64_t stop_at,
                                                std::unique_ptr<Source> source) {
@@ -71,6 +78,7 @@ void PacedSource::Enqueue(Sample sample) {
   if (!is_new) played = std::max(played, track.last_played);
   track.last_played = played;
   last_played_ = std::max(last_played_, played);
+  if (played < start_at_) return;  // what is beside it stays, and comes with a later sample
 
   sample.stamp_nanos = played;
   sample.counter = track.counter.Add(sample.counter);
@@ -98,6 +106,7 @@ void PacedSource::ReadAhead(std::int64_t deadline) {
 }
 
 void PacedSource::EndRound() {
+  if (rounds_ == 0) CheckStarted();
   while (!characters_.empty()) EnqueueCharacter(characters_.begin()->first, last_played_);
   if (reopen_ == nullptr || is_round_empty_) {  // an empty round would be followed by another
     read_all_ = true;
@@ -202,10 +211,13 @@ void PacedSource::CheckReached() const {
   const std::int64_t played = has_started_ ? stopped_clock_ - kStoppedOriginNanos : -1;
   if (*stop_at_ <= played + kRoundingNanos) return;
   if (played < 0) throw SourceError(description() + ": has no sample");
-  std::ostringstream why;
-  why << description() << ": ends " << std::fixed << std::setprecision(3) << Secs(played)
-      << " s after its first sample, before " << Secs(*stop_at_) << " s; choose an earlier time";
-  throw SourceError(why.str());
+  throw EndsBefore(description(), played, *stop_at_);
+}
+
+// At the end of the first round.
+void PacedSource::CheckStarted() const {
+  if (is_round_empty_ || last_played_ >= start_at_) return;
+  throw EndsBefore(description(), last_played_, start_at_);
 }
 
 std::int64_t PacedSource::now_nanos() const { return stop_at_ ? stopped_clock_ : MonotonicNanos(); }

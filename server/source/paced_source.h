@@ -29,7 +29,10 @@ class PacedSource : public Source, private SampleSink {
 
   /// Plays `source`. At its end, `reopen` (if not null) returns the source of the next round:
   /// counters, time codes and stamps continue.
-  explicit PacedSource(std::unique_ptr<Source> source, Open reopen = nullptr);
+  /// @param start_at  ns after the first sample, in the first round: the samples before it are read
+  ///   at once and not delivered
+  explicit PacedSource(std::unique_ptr<Source> source, Open reopen = nullptr,
+                       std::int64_t start_at = 0);
 
   /// Delivers the samples up to `stop_at` (ns after the first one) at once, and then no more, with
   /// the source's own stamps. Its time stands still there.
@@ -75,9 +78,11 @@ class PacedSource : public Source, private SampleSink {
   void Begin();
   State PollAtOnce(SampleSink& sink);
   void CheckReached() const;
+  void CheckStarted() const;
 
   std::unique_ptr<Source> source_;
   Open reopen_;
+  const std::int64_t start_at_;
   SourceCounters earlier_;  // of earlier rounds
   std::uint64_t samples_ = 0;
   std::optional<std::int64_t> stop_at_;  // after the first sample; nullopt: at the true rate

@@ -187,13 +187,15 @@ ros_bridge::BridgeConfig BridgeOf(const ServeOptions& options) {
   return config;
 }
 
-std::optional<std::int64_t> StopAtOf(const ServeOptions& options) {
-  if (!options.stop_at) return std::nullopt;
+// ns; nullopt: not given.
+std::optional<std::int64_t> MomentOf(const char* name, const SecsOption& moment,
+                                     const ServeOptions& options) {
+  if (!moment) return std::nullopt;
   if (*options.udp_port != 0 || IsLiveUrl(*options.source)) {
-    throw UsageError("--stop_at=" + options.stop_at.ToText() +
-                     ": a live source has no such moment; expected " + RecordedSourceKinds());
+    throw UsageError(fmt::format("{}={}: a live source has no such moment; expected {}", name,
+                                 moment.ToText(), RecordedSourceKinds()));
   }
-  return std::llround(*options.stop_at * 1e9);
+  return std::llround(*moment * 1e9);
 }
 
 // Without its page and pictures.
@@ -204,7 +206,8 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.source_url = mvn::ReceivingFrom(config.source_url, *options.from);
   config.source_reach = mvn::DescribeReach(config.source_url);
   config.loop = *options.loop;
-  config.stop_at = StopAtOf(options);
+  config.start_at = MomentOf("--start_at", options.start_at, options).value_or(0);
+  config.stop_at = MomentOf("--stop_at", options.stop_at, options);
   config.source.stream = {*options.stamps, mvn::Delivery::kPrompt};
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.source.subject_height_m = config.scene.height_m;

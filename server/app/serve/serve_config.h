@@ -31,6 +31,7 @@ struct ServeConfig {
   std::string source_url;
   std::string source_reach;  // who can send to it, for the log; "": no sender, it does not listen
   bool loop = false;
+  std::int64_t start_at = 0;            // ns after the first sample; see PacedSource
   std::optional<std::int64_t> stop_at;  // ns after the first sample; see PacedSource::UpTo()
   SourceSettings source;
   SceneOptions scene;

@@ -58,6 +58,7 @@ ServeOptions::ServeOptions()
       stamps({{"fitted", mvn::Stamps::kFitted}, {"arrival", mvn::Stamps::kArrival}},
              mvn::Stamps::kFitted),
       stale_secs(StaleSecs()),
+      start_at(options::Number(0, {0, kLatestSecs, "s"})),
       alarms("default"),
       ros({{"auto", ros_bridge::RosMode::kAuto},
            {"off", ros_bridge::RosMode::kOff},
@@ -96,6 +97,9 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option("udp_port", udp_port, "short for --source udp://:PORT");
   option.HasNoEffect("source", "with --udp_port", [this] { return *udp_port != 0; });
   option("loop", loop, "start a file again at its end");
+  option("start_at", start_at,
+         "time after the first sample of a recording at which it begins to play, s; with --loop "
+         "the first round");
   option(
       "stamps", stamps,
       "time stamps of samples: fitted (arrival times smoothed by the sender's clock, which removes "
@@ -170,6 +174,7 @@ void ServeOptions::List(options::OptionList& option) {
          "time after the first sample of a recording at which it stands still, s: all before it is "
          "read at once, and the page shows this moment; nothing is published to ROS");
   option.HasNoEffect("loop", "with --stop_at", [this] { return bool(stop_at); });
+  option.HasNoEffect("start_at", "with --stop_at", [this] { return bool(stop_at); });
   option.HasNoEffect("ros", "with --stop_at",
                      [this] { return bool(stop_at) && *ros != ros_bridge::RosMode::kOff; });
   option.Group("Page and pictures");

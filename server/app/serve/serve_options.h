@@ -29,6 +29,8 @@ class FactorValue : public options::ValueOf<double> {
   options::JsonKind json_kind() const override { return options::JsonKind::kNumber; }
 };
 
+using SecsOption = options::Optional<options::Number>;  // s
+
 struct ServeOptions {
   ServeOptions();
 
@@ -37,6 +39,7 @@ struct ServeOptions {
   options::Flag loop;
   options::Choice<mvn::Stamps> stamps;
   options::Number stale_secs;
+  SecsOption start_at;
   options::Text alarms;
   PersonOptions person;
   LoadOptions loads;
@@ -52,7 +55,7 @@ struct ServeOptions {
   options::Text tls_certificate, tls_key, base_path, trusted_proxies;
   options::Number history_minutes;
   options::Text marks_file, mark_names, recordings_folder;
-  options::Optional<options::Number> stop_at;  // s
+  SecsOption stop_at;
   // As messages name them: "~token", "file.yaml:3: token"; "": not given.
   std::string token_given_as, viewer_token_given_as;
   FigureValue figure;

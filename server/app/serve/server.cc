@@ -45,7 +45,7 @@ std::unique_ptr<Source> SourceOf(const ServeConfig& config, mvn::DatagramSink* t
   SourceSettings settings = config.source;
   settings.tap = tap;
   if (config.stop_at) return OpenUpTo(config.source_url, *config.stop_at, settings);
-  return OpenAtTrueRate(config.source_url, config.loop, settings);
+  return OpenAtTrueRate(config.source_url, config.loop, settings, config.start_at);
 }
 
 // Null: nothing can be recorded.

@@ -102,6 +102,43 @@ TEST(PacedSource, ContinuesCounterAndTimeInALoop) {
   }
 }
 
+TEST(PacedSource, MayBeginLaterInTheFirstRound) {
+  PacedSource source(
+      std::make_unique<ShortFile>(), [] { return std::make_unique<ShortFile>(); }, 1'500'000);
+  Collector collector;
+  const std::int64_t before = WallNanos();
+  while (collector.samples.size() < 6) {
+    ASSERT_NE(source.Poll(milliseconds(1000), collector), Source::State::kEnded);
+  }
+  EXPECT_EQ(collector.characters, 3) << "of each round, though its first sample was left out";
+  EXPECT_GE(collector.samples[0].stamp_nanos, before) << "it is played now";
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(collector.samples[i].time_code_millis, static_cast<std::int64_t>(2 + 2 * i));
+    EXPECT_EQ(collector.samples[i].stamp_nanos - collector.samples[0].stamp_nanos,
+              static_cast<std::int64_t>(2'000'000 * i));
+  }
+  EXPECT_EQ(source.playback()->start_nanos, collector.samples[0].stamp_nanos - 2'000'000);
+  EXPECT_EQ(source.playback()->round_nanos, 6'000'000);
+}
+
+TEST(PacedSource, ThatEndsBeforeItBeginsSaysWhenItEnds) {
+  PacedSource source(std::make_unique<ShortFile>(), nullptr, 4'500'000);
+  Collector collector;
+  const auto play = [&] {
+    while (source.Poll(milliseconds(1000), collector) == Source::State::kMore) {
+    }
+  };
+  try {
+    play();
+    ADD_FAILURE() << "no error";
+  } catch (const SourceError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "short: ends 0.004 s after its first sample, before 0.005 s; choose an earlier time");
+  }
+  EXPECT_TRUE(collector.samples.empty());
+}
+
 TEST(PacedSource, UpToAMomentDeliversAllBeforeItAtOnceAndNoneAfterIt) {
   const auto source = PacedSource::UpTo(3'000'000, std::make_unique<ShortFile>());
   Collector collector;

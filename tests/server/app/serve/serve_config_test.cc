@@ -84,6 +84,10 @@ TEST(ServeConfig, StopsOnlyInARecordingAndPublishesNothingThen) {
   EXPECT_FALSE(config.ros);
   EXPECT_FALSE(config.scene.makes_models_aside) << "its states are then the same in each run";
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}}).stop_at, std::nullopt);
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}}).start_at, 0);
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"start_at", "2.5"}}).start_at, 2'500'000'000);
+  EXPECT_THAT(ErrorOf({{"source", "ros:"}, {"start_at", "2.5"}}),
+              HasSubstr("--start_at=2.5: a live source has no such moment"));
   for (const char* live : {"udp://:9763", "tcp://:9763", "ros:"}) {
     EXPECT_THAT(ErrorOf({{"source", live}, {"stop_at", "2.5"}}),
                 HasSubstr("--stop_at=2.5: a live source has no such moment; expected demo:MOTION"));
