@@ -80,9 +80,9 @@ class Drawing {
 struct DrawingModule {
   ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
             TrackedObject, LeftOutPerson, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual,
-            urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, SceneMarker, CameraImage, Camera,
-            SceneLook, Trail, Ghost, Image, Label, DrawnLine, DrawnScene, SeenObject, Driver,
-            RegionSettings>
+            urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, urdf::MeshNotFound, SceneMarker,
+            CameraImage, Camera, SceneLook, Trail, Ghost, Image, Label, DrawnLine, DrawnScene,
+            SeenObject, Driver, RegionSettings>
       abi;
   /// `backend`: one of those in the module.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log,

@@ -33,7 +33,7 @@ std::unique_ptr<SurroundingsWriter> MakeSurroundingsWriter();
 
 struct SurroundingsModule {
   ModuleAbi<SceneMarker, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual, urdf::Collision,
-            urdf::RobotJoint, urdf::MeshSearch>
+            urdf::RobotJoint, urdf::MeshSearch, urdf::MeshNotFound>
       abi;
   std::unique_ptr<SurroundingsWriter> (*make)();
 };

@@ -7,6 +7,8 @@
 
 #include <utility>
 
+#include "core/system/words.h"
+#include "server/download/robot_meshes.h"
 #include "server/ros/raw_message.h"
 #include "urdf/human_urdf.h"
 
@@ -82,6 +84,19 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   robot.meshes = std::make_shared<const urdf::MeshSearch>(std::move(search));
   spdlog::info("{}: robot '{}' with {} links", ParameterOf(i), robot.name,
                robot.model->links.size());
+  const std::size_t remote = download::CountRemoteMeshes(*robot.model);
+  if (remote == 0) return TakeUp(i, std::move(robot));
+  spdlog::info("robot '{}': loads {} from web servers", robot.name,
+               Counted(remote, "mesh", "meshes"));
+  if (loader_ == nullptr) {
+    loader_ = std::make_unique<RobotLoader>([this](std::size_t loaded, RobotState with_meshes) {
+      TakeUp(loaded, std::move(with_meshes));
+    });
+  }
+  loader_->Load(i, std::move(robot));
+}
+
+void RobotInbox::TakeUp(std::size_t i, RobotState robot) {
   const std::lock_guard<std::mutex> lock(mutex_);
   loaded_[i] = std::move(robot);
   InputCounters& counters = counters_[NameOf(i)];

@@ -19,6 +19,7 @@
 #include "server/ros/bridge.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/robot_frames.h"
+#include "server/ros/robot_loader.h"
 
 namespace kinescope::ros_bridge {
 
@@ -34,7 +35,8 @@ class RobotInbox {
   std::string JointStatesOf(std::size_t i) const;
 
   /// Takes the content of the parameter of robot `i`, as often as it is read; nullopt: it is not
-  /// there, or no text. Any thread.
+  /// there, or no text. A robot with meshes on web servers is shown once they are loaded. One
+  /// thread.
   void SetDescription(std::size_t i, const std::optional<std::string>& urdf);
 
   /// Why the parameter of robot `i` cannot be read. Any thread.
@@ -60,6 +62,8 @@ class RobotInbox {
   void Warn(std::size_t i, std::int64_t monotonic_nanos);
   std::string NameOf(std::size_t i) const;
   void Refuse(std::size_t i, const std::string& kind, const std::string& text);
+  /// Shows it from the next Deliver() on. Any thread.
+  void TakeUp(std::size_t i, RobotState robot);
 
   const std::vector<GraphRobot> wanted_;
   const std::string reference_frame_;
@@ -74,6 +78,7 @@ class RobotInbox {
   std::map<std::size_t, RobotState> loaded_;       // guarded by mutex_; until taken up
   std::vector<std::optional<std::string>> texts_;  // guarded by mutex_; of the parameters
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+  std::unique_ptr<RobotLoader> loader_;  // of SetDescription(); null: it was not needed yet
 };
 
 /// The topics of joint states; a master that was restarted needs new ones. Calls the master, so it

@@ -1,5 +1,7 @@
 #include "server/scene/robot_source.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -11,7 +13,9 @@
 
 #include "core/system/check.h"
 #include "core/system/errors.h"
+#include "core/system/stop_signal.h"
 #include "core/system/words.h"
+#include "server/download/robot_meshes.h"
 #include "urdf/mesh_inputs.h"
 #include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_model.h"
@@ -55,6 +59,16 @@ void CheckJoints(const urdf::JointPositions& positions, const urdf::RobotModel& 
 
 }  // namespace
 
+urdf::MeshSearch SearchFor(const urdf::RobotModel& model, const fs::path& path,
+                           const std::vector<std::string>& package_path) {
+  urdf::MeshSearch search = urdf::MakeMeshSearch(path, package_path);
+  const std::size_t remote = download::CountRemoteMeshes(model);
+  if (remote > 0)
+    spdlog::info("{}: loads {} from web servers", path.string(), Counted(remote, "mesh", "meshes"));
+  download::LoadRemoteMeshes(model, search, StopRequested);
+  return search;
+}
+
 RobotState ReadRobot(const fs::path& path, const std::vector<std::string>& package_path,
                      const urdf::JointPositions& joints) {
   RobotState robot;
@@ -66,7 +80,7 @@ RobotState ReadRobot(const fs::path& path, const std::vector<std::string>& packa
     throw SourceError(path.string() + ": " + error.what());
   }
   robot.name = robot.model->name;
-  robot.meshes = std::make_shared<urdf::MeshSearch>(urdf::MakeMeshSearch(path, package_path));
+  robot.meshes = std::make_shared<urdf::MeshSearch>(SearchFor(*robot.model, path, package_path));
   return robot;
 }
 

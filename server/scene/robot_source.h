@@ -6,13 +6,20 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_kinematics.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::app {
 
 /// The bytes of a URDF file, limited to one byte more than any URDF reader accepts.
 /// @throws SourceError with the file and the reason.
 std::string ReadUrdfFile(const std::filesystem::path& path);
+
+/// Where the meshes of the robot in `path` are searched. Those on web servers are loaded: blocks.
+/// @throws std::runtime_error where there is no folder for temporary files
+urdf::MeshSearch SearchFor(const urdf::RobotModel& model, const std::filesystem::path& path,
+                           const std::vector<std::string>& package_path);
 
 /// The robot in `path`, its root at the origin, its joints at `joints` (others as in
 /// urdf::PlaceLinks).

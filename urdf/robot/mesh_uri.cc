@@ -159,8 +159,14 @@ std::variant<fs::path, MeshNotFound> FindMesh(const std::string& uri, const Mesh
     return MeshNotFound{"package '" + name + "' was not found in " + List(search.package_path) +
                         " or around the URDF; add its folder with --package_path"};
   }
+  if (const auto loaded = search.loaded.find(uri); loaded != search.loaded.end()) {
+    return loaded->second;
+  }
   if (uri.find("://") != uri.npos) {
-    return MeshNotFound{uri + ": unsupported; expected package://, file:// or a path"};
+    const bool is_on_web = uri.compare(0, 7, "http://") == 0 || uri.compare(0, 8, "https://") == 0;
+    return MeshNotFound{
+        uri + (is_on_web ? ": meshes on web servers are loaded for robots only" : ": unsupported") +
+        "; expected package://, file:// or a path"};
   }
   const fs::path path = uri;
   if (path.is_absolute()) return Existing(path);

@@ -26,6 +26,7 @@
 #include "server/scene/scene_reader.h"
 #include "server/source/open_source.h"
 #include "urdf/robot/mesh_uri.h"
+#include "urdf/robot/robot_model.h"
 #include "urdf/robot/urdf_check.h"
 
 namespace kinescope::app {
@@ -239,9 +240,19 @@ void Write(const WriteOptions& options) {
   WriteFile(*options.out, xml);
 }
 
+// With the meshes that are on web servers; of a file that is no URDF, which the check will say,
+// there are none.
+urdf::MeshSearch SearchForCheck(const UrdfCheckOptions& options, const std::string& xml) {
+  try {
+    return SearchFor(urdf::ParseUrdf(xml), *options.file, *options.package_path);
+  } catch (const urdf::UrdfError&) {
+    return urdf::MakeMeshSearch(*options.file, *options.package_path);
+  }
+}
+
 bool Check(const UrdfCheckOptions& options) {
-  const urdf::UrdfReport report = urdf::CheckUrdf(
-      ReadUrdfFile(*options.file), urdf::MakeMeshSearch(*options.file, *options.package_path));
+  const std::string xml = ReadUrdfFile(*options.file);
+  const urdf::UrdfReport report = urdf::CheckUrdf(xml, SearchForCheck(options, xml));
   PrintText(stdout, *options.json ? UrdfReportJson(*options.file, report)
                                   : UrdfReportText(*options.file, report));
   return report.is_usable();
