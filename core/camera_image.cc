@@ -1,6 +1,7 @@
 #include "core/camera_image.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
@@ -10,6 +11,10 @@ namespace {
 
 constexpr int kMostSide = 16'384;         // px
 constexpr std::size_t kLongestName = 40;  // bytes of an encoding in a message
+
+// Of the larger side of the image: fields of view of about 157 and 0.6 degrees.
+constexpr double kLeastFocal = 0.1, kMostFocal = 100;
+constexpr double kMostAnamorphic = 0.1;  // a difference, of the focal length
 
 }  // namespace
 
@@ -31,6 +36,37 @@ std::optional<PixelFormat> FormatOf(const std::string& encoding) {
 
 bool IsFile(const CameraImage& image) {
   return image.encoding == "jpeg" || image.encoding == "png";
+}
+
+std::string FindDefect(const ImageCamera& camera) {
+  const auto [focal_x, focal_y] = camera.focal_px;
+  const auto [center_x, center_y] = camera.center_px;
+  const auto is_side = [](int px) { return px > 0 && px <= kMostSide; };
+  if (!is_side(camera.width) || !is_side(camera.height)) {
+    return "it was calibrated for " + std::to_string(camera.width) + " x " +
+           std::to_string(camera.height) + " px";
+  }
+  if (!(std::isfinite(focal_x) && std::isfinite(focal_y) && focal_x > 0 && focal_y > 0)) {
+    return "its focal lengths are not positive";
+  }
+  if (std::abs(focal_x - focal_y) > kMostAnamorphic * focal_y) {
+    return "its focal lengths differ by more than a tenth";
+  }
+  const double largest_side = std::max(camera.width, camera.height);
+  if (focal_y < kLeastFocal * largest_side || focal_y > kMostFocal * largest_side) {
+    return "its focal length is not that of a pinhole camera";
+  }
+  const auto is_near = [](double center, int side) {
+    return center >= -0.5 * side && center <= 1.5 * side;  // not NaN
+  };
+  if (!is_near(center_x, camera.width) || !is_near(center_y, camera.height)) {
+    return "its axis is far from its image";
+  }
+  const urdf::Pose& pose = camera.world_from_optical;
+  if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite()) {
+    return "its place is not finite";
+  }
+  return "";
 }
 
 std::string FindDefect(const CameraImage& image) {

@@ -10,7 +10,23 @@
 #include <string>
 #include <vector>
 
+#include "urdf/kinematics.h"
+
 namespace kinescope {
+
+/// The camera that took an image: a pinhole camera without distortion, as calibrations describe it
+/// (sensor_msgs/CameraInfo). Its axes follow REP 103: z forward, x to the right, y down.
+struct ImageCamera {
+  urdf::Pose world_from_optical;
+  int width = 0, height = 0;  // px, of the image that was calibrated
+  // px, in x and y; pixels have their centres at whole numbers.
+  std::array<double, 2> focal_px = {}, center_px = {};
+  double scene_opacity = 1;  // 0..1, of the scene that is drawn over the image
+};
+
+/// Why no scene can be drawn as it sees it, such as "its focal lengths are not positive"; "": it
+/// can.
+[[nodiscard]] std::string FindDefect(const ImageCamera& camera);
 
 struct CameraImage {
   std::string name;                 // of its topic
@@ -19,7 +35,10 @@ struct CameraImage {
   std::size_t row_bytes = 0;        // from one row to the next
   std::size_t begin = 0, size = 0;  // of the pixels, or of the file, in `bytes`
   bool is_bigendian = false;        // numbers of two and four bytes
+  std::int64_t stamp_nanos = 0;     // of the node that took it
   std::int64_t received_nanos = 0;  // monotonic clock; 0: of a recording
+  std::optional<ImageCamera> camera = std::nullopt;  // if the scene is drawn over it
+  double pane_width = 0;  // of a picture that shows it, as a share of its width; 0: as usual
   /// Null: none. Shared, because they are large.
   std::shared_ptr<const std::vector<std::uint8_t>> bytes;
 };

@@ -68,6 +68,14 @@ struct FramesStyle {
   std::vector<std::string> hidden;
 };
 
+/// Of a topic of images.
+struct CameraStyle {
+  double scene_opacity = 0;  // of the scene that is drawn over each, as its camera sees it; 0: none
+  double pane_width = 0;     // of pictures, as a share of their width; 0: as usual
+  bool is_cloud = false;     // depths, shown as a cloud of points in place of a picture
+  std::string color_topic = {};  // of a cloud: images of the same size with its colours; "": none
+};
+
 inline constexpr std::size_t kMostKeptMessages = 1000;
 inline constexpr double kLongestDecay = 600;  // s
 
@@ -104,6 +112,7 @@ struct ShownStyle {
   CovarianceStyle covariance = {};
   TurnCovarianceStyle turn_covariance = {};
   PathPoses poses = {};
+  CameraStyle camera = {};
   EarlierMessages earlier = {};
 };
 

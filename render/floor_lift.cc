@@ -49,6 +49,12 @@ void Lift(SceneState& state, const Eigen::Vector3d& lift) {
     lifted->pose.position += lift;
     marker = std::move(lifted);
   }
+  for (auto& image : state.images) {
+    if (!image->camera) continue;
+    auto lifted = std::make_shared<CameraImage>(*image);
+    lifted->camera->world_from_optical.position += lift;
+    image = std::move(lifted);
+  }
   state.floor_z = 0;
 }
 

@@ -197,9 +197,17 @@ LegendRow GroundReactionRow() {
   return row;
 }
 
+std::vector<ImageSize> ImageSizesOf(const SceneState& state) {
+  std::vector<ImageSize> sizes;
+  for (const auto& image : state.images) {
+    sizes.push_back({ProportionsOf(*image), image->pane_width});
+  }
+  return sizes;
+}
+
 LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
   LegendContent content;
-  for (const auto& image : state.images) content.images.push_back(ProportionsOf(*image));
+  content.images = ImageSizesOf(state);
   if (HasOnlyRobots(state)) return content;
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);

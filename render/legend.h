@@ -38,12 +38,22 @@ struct LegendRow {
 inline constexpr const char* kLegendTitle = "Joint load, % of capacity";
 inline constexpr const char* kSymbolsTitle = "Symbols";  // without load classes
 
+/// Of the picture of a camera, as it is shown.
+struct ImageSize {
+  double proportion = 1;  // width by height
+  double share = 0;       // of the width of the picture; 0: as usual
+
+  bool operator==(const ImageSize& other) const {
+    return proportion == other.proportion && share == other.share;
+  }
+};
+std::vector<ImageSize> ImageSizesOf(const SceneState& state);
+
 struct LegendContent {
-  std::string title;               // kLegendTitle or kSymbolsTitle; "" without rows
-  std::vector<LegendRow> rows;     // from top to bottom
-  std::vector<std::string> notes;  // below them, fainter: load metric, assumed body mass
-  /// Not listed, but beside the scene as it is: width by height of each picture of a camera.
-  std::vector<double> images = {};
+  std::string title;                   // kLegendTitle or kSymbolsTitle; "" without rows
+  std::vector<LegendRow> rows;         // from top to bottom
+  std::vector<std::string> notes;      // below them, fainter: load metric, assumed body mass
+  std::vector<ImageSize> images = {};  // not listed, but beside the scene as it is
 
   bool is_empty() const { return rows.empty(); }
   bool has_classes() const { return title == kLegendTitle; }

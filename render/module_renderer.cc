@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/system/check.h"
+#include "render/camera/image_view.h"
 #include "render/canvas.h"
 #include "render/finite.h"
 #include "render/floor_lift.h"
@@ -218,6 +219,26 @@ void ModuleRenderer::DrawView(const SceneState& state, DrawnView& drawn, const P
   WithSceneOf(drawn, state, spec, [&](const SceneState& shown, const SceneLook& look) {
     DrawWatched(shown, drawn, spec, look, image);
   });
+}
+
+void ModuleRenderer::DrawSceneOver(const SceneState& state, const ImageCamera& camera,
+                                   const PictureSpec& spec, Image& pixels) {
+  const ImageView view = ViewOf(camera, pixels.width, pixels.height);
+  PictureSpec bare = spec;  // nothing of what is behind the scene
+  bare.look.floor = false;
+  bare.look.shown.Set(ScenePart::kShadows, false);
+  if (bare.look.style == Style::kLine) bare.look.style = Style::kMatte;
+  const SceneState shown = Without(state, bare.look);
+  DrawnView drawn{{0, 0, view.width, view.height}, view.camera, "", {}};
+  const auto draw_over = [&](const Rgb& background, Image& image) {
+    bare.look.background = background;
+    SetSize(image, view.width, view.height);
+    DrawWatched(shown, drawn, bare, bare.look, image);
+  };
+  draw_over({0, 0, 0}, on_image_over_black_);
+  draw_over({1, 1, 1}, on_image_);
+  MatteOut(on_image_, on_image_over_black_);
+  LayOver(pixels, on_image_, view.image, camera.scene_opacity);
 }
 
 void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,

@@ -42,6 +42,9 @@ class ModuleRenderer : public Renderer {
                          const PictureSpec& spec);
   void DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
                    const SceneLook& look, Image& image);
+  // Over the pixels of an image that `camera` took.
+  void DrawSceneOver(const SceneState& state, const ImageCamera& camera, const PictureSpec& spec,
+                     Image& pixels);
   // `state`, unless the view has a scene of its own.
   void DrawView(const SceneState& state, DrawnView& drawn, const PictureSpec& spec, Image& image);
   void SeeView(const SceneState& state, const DrawnView& drawn, const PictureSpec& spec,
@@ -67,12 +70,15 @@ class ModuleRenderer : public Renderer {
   const RendererSettings settings_;
   Watchdog watchdog_;
   std::unique_ptr<Drawing> drawing_;
-  Overlay overlay_;
+  Overlay overlay_{[this](const SceneState& state, const ImageCamera& camera,
+                          const PictureSpec& spec,
+                          Image& pixels) { DrawSceneOver(state, camera, spec, pixels); }};
   std::vector<DrawnView> drawn_;      // of the newest picture
   std::vector<std::string> skipped_;  // of the newest picture
   std::set<std::string> said_;
   Image part_;  // one of several views
   Image over_black_;
+  Image on_image_, on_image_over_black_;  // the scene over an image of a camera
   Image below_layer_;
 };
 

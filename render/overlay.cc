@@ -116,7 +116,13 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
   const OverlayParts& parts = spec.parts;
   if (parts.images && !state.images.empty()) {
     page.canvas.Begin("images");
-    images_.Paint(page, state, parts.plot && spec.load_curves != nullptr);
+    OverlayImages::DrawScene draw_scene;
+    if (draw_scene_ != nullptr) {
+      draw_scene = [&](const ImageCamera& camera, Image& pixels) {
+        draw_scene_(state, camera, spec, pixels);
+      };
+    }
+    images_.Paint(page, state, parts.plot && spec.load_curves != nullptr, draw_scene);
   }
   if (HasOnlyRobots(state)) return;
   if (!page.is_small) {

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -33,6 +35,13 @@ struct DrawnView {
 
 class Overlay {
  public:
+  /// Draws the scene of a picture over the pixels of an image, as its camera sees it.
+  using DrawScene = std::function<void(const SceneState& state, const ImageCamera& camera,
+                                       const PictureSpec& spec, Image& pixels)>;
+
+  /// @param draw_scene  null: images of cameras are painted without the scene
+  explicit Overlay(DrawScene draw_scene = nullptr) : draw_scene_(std::move(draw_scene)) {}
+
   /// Paints on a picture with the size of `spec`. @throws RenderError if a font is missing.
   void Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
              const PictureSpec& spec);
@@ -60,6 +69,7 @@ class Overlay {
   void PaintLeader(Page& page, double x, double y, const LabelBox& box, const LabelPlace& place);
   void PaintMarkerText(Page& page, const Label& label, const Projected& at);
 
+  const DrawScene draw_scene_;
   std::unique_ptr<OverlayFonts> fonts_;
   OverlayImages images_;
 };

@@ -20,23 +20,38 @@ std::string AgeOf(const CameraImage& image, const SceneState& state) {
   return std::to_string((state.made_nanos - image.received_nanos) / kNanosPerSecond) + " s old";
 }
 
+// In the middle of its place.
+void PaintPixels(OverlayPage& page, const ImagePlace& at, const CameraImage& image,
+                 const Image& pixels, const OverlayImages::DrawScene& draw_scene) {
+  const auto paint = [&](const Image& all) {
+    page.canvas.Picture(at.left + (at.width - all.width) / 2, at.top + (at.height - all.height) / 2,
+                        all);
+  };
+  if (!image.camera || draw_scene == nullptr || pixels.rgba.empty()) return paint(pixels);
+  Image with_scene = pixels;
+  draw_scene(*image.camera, with_scene);
+  paint(with_scene);
+}
+
 }  // namespace
 
 std::vector<ImagePlace> PlacesOfImages(const OverlaySizes& sizes,
-                                       const std::vector<double>& proportions, bool has_plot) {
+                                       const std::vector<ImageSize>& images, bool has_plot) {
   std::vector<ImagePlace> places;
-  if (sizes.is_small || proportions.empty()) return places;
+  if (sizes.is_small || images.empty()) return places;
   const double margin = sizes.Px(kMargin), gap = 0.5 * margin;
   double bottom =
       sizes.bottom - margin - sizes.Px(kTimeCodeLine) - 1.3 * sizes.FontPx(kTitleSize) - gap;
   const double top = (has_plot ? kTopmostBelowPlot : kTopmost) * sizes.height;
-  const double share = (bottom - top) / static_cast<double>(proportions.size()) - gap;
+  const double share = (bottom - top) / static_cast<double>(images.size()) - gap;
   if (share < kLeastHeight) return places;
-  for (const double proportion : proportions) {
-    const double height =
-        std::min({share, kHighest * sizes.height, kWidest * sizes.width / proportion});
+  for (const ImageSize& image : images) {
+    const double highest = image.share > 0 ? share : kHighest * sizes.height;
+    const double widest = image.share > 0 ? std::min(image.share * sizes.width, sizes.right())
+                                          : kWidest * sizes.width;
+    const double height = std::min({share, highest, widest / image.proportion});
     ImagePlace place;
-    place.width = std::max(1, static_cast<int>(std::lround(height * proportion)));
+    place.width = std::max(1, static_cast<int>(std::lround(height * image.proportion)));
     place.height = std::max(1, static_cast<int>(std::lround(height)));
     place.left = static_cast<int>(std::lround(sizes.right())) - place.width;
     place.top = static_cast<int>(std::lround(bottom)) - place.height;
@@ -51,7 +66,9 @@ const OverlayImages::Decoded& OverlayImages::Decode(std::size_t i,
                                                     int width, int height) {
   if (decoded_.size() <= i) decoded_.resize(i + 1);
   Decoded& known = decoded_[i];
-  if (known.of == image && known.width == width && known.height == height) return known;
+  // Its camera may have moved: the pixels are the same.
+  const bool is_same = known.of != nullptr && known.of->bytes == image->bytes;
+  if (is_same && known.width == width && known.height == height) return known;
   known = {image, width, height, {}, ""};
   auto pixels = DecodeCameraImage(*image, width, height);
   if (pixels) {
@@ -62,10 +79,9 @@ const OverlayImages::Decoded& OverlayImages::Decode(std::size_t i,
   return known;
 }
 
-void OverlayImages::Paint(OverlayPage& page, const SceneState& state, bool has_plot) {
-  std::vector<double> proportions;
-  for (const auto& image : state.images) proportions.push_back(ProportionsOf(*image));
-  const std::vector<ImagePlace> places = PlacesOfImages(page, proportions, has_plot);
+void OverlayImages::Paint(OverlayPage& page, const SceneState& state, bool has_plot,
+                          const DrawScene& draw_scene) {
+  const std::vector<ImagePlace> places = PlacesOfImages(page, ImageSizesOf(state), has_plot);
   decoded_.resize(std::min(decoded_.size(), places.size()));
   Font& font = page.fonts.regular;
   const int size = page.FontPx(kSmallSize);
@@ -77,8 +93,7 @@ void OverlayImages::Paint(OverlayPage& page, const SceneState& state, bool has_p
     page.canvas.RoundedBox(at.left - rim, at.top - rim, at.width + 2 * rim, at.height + 2 * rim,
                            rim, page.inks.separator);
     page.canvas.RoundedBox(at.left, at.top, at.width, at.height, 0, page.inks.notice);
-    page.canvas.Picture(at.left + (at.width - decoded.pixels.width) / 2,
-                        at.top + (at.height - decoded.pixels.height) / 2, decoded.pixels);
+    PaintPixels(page, at, image, decoded.pixels, draw_scene);
     const std::string age = AgeOf(image, state);
     const std::string name = PrintableLine(image.name);
     const std::string text = Shorten(!decoded.problem.empty() ? name + ": " + decoded.problem

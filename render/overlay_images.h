@@ -2,12 +2,14 @@
 /// overlay*.cc.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/camera_image.h"
 #include "core/scene_state.h"
+#include "render/legend.h"
 #include "render/overlay_page.h"
 
 namespace kinescope::render {
@@ -16,16 +18,20 @@ namespace kinescope::render {
 struct ImagePlace {
   int left = 0, top = 0, width = 0, height = 0;
 };
-/// From the lowest one upwards. @param proportions  width by height
-/// @param has_plot  above them
+/// From the lowest one upwards. @param has_plot  above them
 std::vector<ImagePlace> PlacesOfImages(const OverlaySizes& sizes,
-                                       const std::vector<double>& proportions, bool has_plot);
+                                       const std::vector<ImageSize>& images, bool has_plot);
 
 /// Remembers what it has decoded: most pictures come again in the next one that is drawn. One
 /// thread.
 class OverlayImages {
  public:
-  void Paint(OverlayPage& page, const SceneState& state, bool has_plot);
+  /// Draws the scene over the pixels of an image, as its camera sees it.
+  using DrawScene = std::function<void(const ImageCamera& camera, Image& pixels)>;
+
+  /// @param draw_scene  null: images are painted without it
+  void Paint(OverlayPage& page, const SceneState& state, bool has_plot,
+             const DrawScene& draw_scene);
 
  private:
   struct Decoded {

@@ -465,7 +465,8 @@ function showReadings() {
   alarms.setConnected(status.level !== 'disconnected', now, shown.newest?.madeMicros ?? 0);
   alarmPanel.update(now);
   scene?.updateSurroundings(shown.details.surroundings, formerNow()?.state ?? null, now);
-  cameraImages.update(shown.isNewest ? shown.details.images : [], now);
+  const imageViews = cameraImages.update(shown.isNewest ? shown.details.images : [], now);
+  scene?.setImageViews(imageViews);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

@@ -4,7 +4,8 @@ import { request } from './server_api.js';
 
 const PAUSE_MILLIS = 200;
 
-/** @typedef {import('./messages.js').CameraImage} CameraImage */
+/** @typedef {import('./messages.js').CameraImage} CameraImage
+ *  @typedef {import('./image_views.js').ImageView} ImageView */
 
 /** Whether it is a picture.
  *  @param {string} url */
@@ -15,8 +16,8 @@ function isDecoded(url) {
 }
 
 export class CameraImages {
-  /** @type {Map<string, {figure: HTMLElement, image: HTMLImageElement, note: HTMLElement, number: number, url: string,
-   *    tag: string, isAsking: boolean, dueAt: number}>} */
+  /** @type {Map<string, {figure: HTMLElement, image: HTMLImageElement, canvas: HTMLCanvasElement, note: HTMLElement,
+   *    enlarge: HTMLButtonElement, number: number, url: string, tag: string, isAsking: boolean, dueAt: number}>} */
   #shown = new Map();
   #host;
 
@@ -27,35 +28,58 @@ export class CameraImages {
 
   /** Call it several times a second.
    *  @param {CameraImage[]} images  of the moment that is shown; former moments have none
-   *  @param {number} now  browser's clock, ms */
+   *  @param {number} now  browser's clock, ms
+   *  @returns {ImageView[]} those over which the scene is drawn */
   update(images, now) {
     const names = new Set(images.map(({ name }) => name));
     for (const [name, { figure, url }] of this.#shown) {
       if (names.has(name)) continue;
+      if (figure.dataset.large === 'true') this.#setLarge(null);
       figure.remove();
       URL.revokeObjectURL(url);
       this.#shown.delete(name);
     }
-    images.forEach(({ name, is_old: isOld }, number) => {
+    const views = /** @type {ImageView[]} */ ([]);
+    images.forEach(({ name, is_old: isOld, camera }, number) => {
       const one = this.#shown.get(name) ?? this.#add(name);
       one.number = number;
       one.figure.dataset.old = String(isOld);
       one.note.textContent = isOld ? `No new picture: ${name}` : name;
+      one.canvas.hidden = camera === null || one.url === '';
+      if (camera !== null && one.url !== '') {
+        one.canvas.style.opacity = String(camera.scene_opacity);
+        views.push({ camera, canvas: one.canvas });
+      }
       if (!one.isAsking && now >= one.dueAt && !document.hidden) this.#load(name);
     });
     this.#host.hidden = images.length === 0;
+    return views;
   }
 
   /** @param {string} name */
   #add(name) {
     const figure = document.createElement('figure'), image = document.createElement('img');
-    const note = document.createElement('figcaption');
+    const canvas = document.createElement('canvas'), note = document.createElement('figcaption');
     image.alt = `Camera ${name}`;
-    figure.append(image, note);
+    canvas.ariaHidden = 'true';  // the scene has a description of its own
+    const enlarge = document.createElement('button');
+    enlarge.type = 'button';
+    enlarge.ariaLabel = `Enlarge camera ${name}`;
+    enlarge.ariaPressed = 'false';
+    enlarge.addEventListener('click', () => this.#setLarge(figure.dataset.large === 'true' ? null : figure));
+    figure.append(image, canvas, note, enlarge);
     this.#host.append(figure);
-    const one = { figure, image, note, number: 0, url: '', tag: '', isAsking: false, dueAt: 0 };
+    const one = { figure, image, canvas, note, enlarge, number: 0, url: '', tag: '', isAsking: false, dueAt: 0 };
     this.#shown.set(name, one);
     return one;
+  }
+
+  /** @param {HTMLElement|null} large  null: none is */
+  #setLarge(large) {
+    this.#host.dataset.large = String(large !== null);
+    for (const { figure, enlarge } of this.#shown.values()) {
+      figure.dataset.large = enlarge.ariaPressed = String(figure === large);
+    }
   }
 
   /** @param {string} name */

@@ -58,6 +58,9 @@ export function setShades(capsules, { first, size }, height, shades) {
   }
 }
 
+/** Of three.js: what lies on the floor, which not every camera sees. */
+export const FLOOR_LAYER = 1;
+
 export class FloorShadow {
   #first = new THREE.Vector3();
   #size = new THREE.Vector2();
@@ -88,6 +91,7 @@ export class FloorShadow {
         out vec4 pixel;
         void main() { pixel = vec4(color, dark); }`,
     }));
+    this.mesh.layers.set(FLOOR_LAYER);
     this.mesh.frustumCulled = false;  // its vertices are placed in the shader
   }
 

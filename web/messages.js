@@ -100,7 +100,11 @@ const readPersonDetails = object({
   })),
 });
 const readObjectName = object({ character: number, number, name: string });
-const readCameraImage = object({ name: string, is_old: boolean });
+const readImageCamera = object({
+  width: number, height: number, focal_px: numbers(2), center_px: numbers(2), position: numbers(3), orientation: numbers(4),
+  scene_opacity: number,
+});
+const readCameraImage = object({ name: string, is_old: boolean, camera: orNull(readImageCamera) });
 const readLeftOut = object({ character: number, name: string, reason: string });
 const readRecording = object({
   start_micros: number, length_secs: numberOrNull, round_secs: numberOrNull, ended_micros: numberOrNull,
@@ -115,7 +119,10 @@ const readDetails = object({
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
  *  @typedef {ReturnType<typeof readPersonDetails>} PersonDetails
  *  @typedef {ReturnType<typeof readObjectName>} ObjectName
- *  @typedef {ReturnType<typeof readCameraImage>} CameraImage  of another node; old: no new one comes
+ *  @typedef {ReturnType<typeof readImageCamera>} ImageCamera  a pinhole camera: px of an image of its width and height;
+ *    its pose in the world: z forward, x to the right, y down, as a quaternion x, y, z, w
+ *  @typedef {ReturnType<typeof readCameraImage>} CameraImage  of another node; old: no new one comes; its camera if the
+ *    scene is drawn over it
  *  @typedef {ReturnType<typeof readLeftOut>} LeftOut  a person who is not shown, and why
  *  @typedef {ReturnType<typeof readRecording>} Recording  that is played: the stamp of its first sample; its length and
  *    the time after which it begins anew, null: not known, or not repeated; the moment of its last sample, null: it plays

@@ -3,8 +3,10 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { OWN_CAMERA, ownAim } from './cameras.js';
+import { FLOOR_LAYER } from './floor_shadow.js';
 import { watchFreeArea } from './free_area.js';
 import { makeMarkerMaterials } from './human.js';
+import { ImageViews } from './image_views.js';
 import { LiveCamera } from './live_camera.js';
 import { ObjectMarkers } from './objects.js';
 import { placeText, shifted, turned, zoomed } from './orbit.js';
@@ -40,6 +42,7 @@ export class Scene {
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #middle = [0, 0, 0];  // of the people on the floor
   #liveCamera = new LiveCamera();
+  #imageViews = new ImageViews();
   #followed = [0, 0, 0];  // the middle that the view has reached
   #isFollowing = false;
   #stillness = matchMedia('(prefers-reduced-motion: reduce)');  // the view then goes at once where it is to be
@@ -275,7 +278,14 @@ export class Scene {
    *  @param {number|null} surroundings  revision of those that are to be shown */
   isAtRest(surroundings) {
     const isDrawn = !this.#isSeen || (!this.#dirty && !this.#isFollowing && this.#drawnReductions === 0);
-    return isDrawn && this.#people.isComplete && this.#ghosts.isComplete && this.#surroundings.isAt(surroundings);
+    return isDrawn && this.#imageViews.isAtRest && this.#people.isComplete && this.#ghosts.isComplete
+      && this.#surroundings.isAt(surroundings);
+  }
+
+  /** The scene is drawn over these images, too.
+   *  @param {import('./image_views.js').ImageView[]} views */
+  setImageViews(views) {
+    if (this.#imageViews.set(views)) this.#dirty = true;
   }
 
   /** Draws the view if anything has changed since the last call.
@@ -287,7 +297,7 @@ export class Scene {
     this.controls.update();
     this.#lastFrameAt = now;
     const isToBeRefined = this.#drawnReductions > 0 && now - this.#drawnAt >= REST_MILLIS;
-    if (!(this.#dirty || isToBeRefined) || !this.#isSeen) return false;
+    if (!(this.#dirty || isToBeRefined || this.#imageViews.isDue(now)) || !this.#isSeen) return false;
     if (this.#dirty) this.#quality.measure(elapsed);
     this.#reduce(this.#dirty ? this.#quality.reductions : 0);
     this.#dirty = false;
@@ -295,6 +305,7 @@ export class Scene {
     this.#takePlace();
     this.#people.pose(this.renderer);
     this.#ghosts.pose(this.renderer);
+    this.#imageViews.draw(this.renderer, this.#scene, now);
     this.renderer.render(this.#scene, this.#camera);
     return true;
   }
@@ -359,6 +370,8 @@ export class Scene {
     this.#shade.material.depthWrite = false;  // the shadow lies on the grid and must not hide it
     this.#grid.position.z = -0.002;
     this.#floor.add(this.#shade, this.#grid);
+    for (const each of this.#floor.children) each.layers.set(FLOOR_LAYER);
+    this.#camera.layers.enable(FLOOR_LAYER);
     this.#placeFloor();
   }
 

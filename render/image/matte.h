@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/image/image.h"
+#include "render/image/tile.h"
 
 namespace kinescope::render {
 
@@ -11,5 +12,10 @@ namespace kinescope::render {
 /// colours with alpha. Over white it looks as before, up to half a level.
 /// @pre equal sizes
 void MatteOut(Image& picture, const Image& over_black);
+
+/// Lays the `part` of a picture with alpha over all of `below`, which is opaque.
+/// @param opacity  0..1, of the part
+/// @pre `part` is within `picture`, and as large as `below`
+void LayOver(Image& below, const Image& picture, const Tile& part, double opacity);
 
 }  // namespace kinescope::render

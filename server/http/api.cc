@@ -376,6 +376,19 @@ json RecordingToJson(const Playback& playback) {
           {"ended_micros", playback.ended_nanos ? json(micros(*playback.ended_nanos)) : json()}};
 }
 
+json CameraToJson(const ImageCamera& camera) {
+  const urdf::Pose& pose = camera.world_from_optical;
+  const Eigen::Vector3d& at = pose.position;
+  const Eigen::Vector4d xyzw = pose.orientation.coeffs();
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"focal_px", camera.focal_px},
+          {"center_px", camera.center_px},
+          {"position", {at.x(), at.y(), at.z()}},
+          {"orientation", {xyzw.x(), xyzw.y(), xyzw.z(), xyzw.w()}},
+          {"scene_opacity", camera.scene_opacity}};
+}
+
 }  // namespace
 
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
@@ -420,7 +433,9 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
   json images = json::array();
   for (std::size_t i = 0; state != nullptr && i < state->images.size(); ++i) {
     const CameraImage& image = *state->images[i];
-    images.push_back({{"name", image.name}, {"is_old", IsOld(image, state->made_nanos)}});
+    images.push_back({{"name", image.name},
+                      {"is_old", IsOld(image, state->made_nanos)},
+                      {"camera", image.camera ? CameraToJson(*image.camera) : json()}});
   }
   return Text({{"details",
                 {{"source", state != nullptr ? state->source : std::string()},

@@ -15,6 +15,8 @@
 namespace kinescope::app {
 namespace {
 
+constexpr double kLeastPaneWidth = 0.05;  // of an image, of the width of a picture
+
 bool IsName(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '/';
@@ -150,6 +152,22 @@ bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& fr
   return text == "on" || text == "off";
 }
 
+// "scene=0.5", "pane=0.6", "cloud=on", "colors=/camera/image" of images.
+bool TakeCamera(const std::string& key, const std::string& text, CameraStyle& camera) {
+  if (key == "colors") {
+    camera.color_topic = text;
+    return IsTopicName(text);
+  }
+  if (key == "cloud") {
+    camera.is_cloud = text == "on";
+    return text == "on" || text == "off";
+  }
+  const auto share = options::ParseNumber(text);
+  if (!share) return false;
+  (key == "pane" ? camera.pane_width : camera.scene_opacity) = *share;
+  return *share >= (key == "pane" ? kLeastPaneWidth : 0) && *share <= 1;
+}
+
 bool TakeShape(const std::string& text, ShownStyle& style) {
   style.has_axes = text == "axes";
   style.has_arrows = text == "arrows";
@@ -187,6 +205,7 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
                  "turn_covariance_offset"})) {
     return TakeTurnCovariance(key, text, style.turn_covariance);
   }
+  if (is_one_of({"scene", "pane", "cloud", "colors"})) return TakeCamera(key, text, style.camera);
   if (is_one_of({"pose_size", "pose_color"})) return TakePoses(key, text, style.poses);
   if (key == "handles") {
     style.has_handles = text == "on";

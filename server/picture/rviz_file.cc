@@ -128,16 +128,17 @@ class RvizReader {
       ReadMarkers(display);
       ReadTopic(display, called, "Marker Topic", HiddenNamespaces(display, called));
     } else if (kind == "rviz/Image" || kind == "rviz/Camera") {
-      ReadTopic(display, called, "Image Topic", "");
+      ReadTopic(display, called, "Image Topic",
+                kind == "rviz/Camera" ? CameraStyleOf(display, called) : "");
       if (!BoolOf(display, "Normalize Range", true)) {
         Remark(display, called +
                             ": Normalize Range is off: a picture of numbers is drawn between "
                             "its smallest and its largest value all the same");
       }
-      if (kind == "rviz/Camera")
-        Remark(display, called + ": its picture is drawn without the scene");
     } else if (kind == "rviz/InteractiveMarkers") {
       ReadTopic(display, called, "Update Topic", InteractiveStyleOf(display));
+    } else if (kind == "rviz/DepthCloud") {
+      ReadTopic(display, called, "Depth Map Topic", StyleOf(display, kind, called));
     } else if (rviz::IsTopicDisplay(kind)) {
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/Axes") {
@@ -227,11 +228,13 @@ class RvizReader {
                  const std::string& style) {
     const bool is_marker = std::string_view(member) == "Marker Topic";
     std::string name = TextOf(display, member, "");
-    const std::string transport = TextOf(display, "Transport Hint", "raw");
-    if (transport == "compressed" && !name.empty()) {
+    const bool is_depth = std::string_view(member) == "Depth Map Topic";
+    const char* const hint = is_depth ? "Depth Map Transport Hint" : "Transport Hint";
+    const std::string transport = TextOf(display, hint, "raw");
+    if (transport == "compressed" && !is_depth && !name.empty()) {
       name += "/compressed";
     } else if (transport != "raw") {
-      Remark(display, called + ": Transport Hint " + Quoted(transport) + " is read as 'raw'");
+      Remark(display, fmt::format("{}: {} {} is read as 'raw'", called, hint, Quoted(transport)));
     }
     if (IsTopicName(name)) {
       picture_.topics.push_back({name, style, Shown(called), is_marker, LineOf(display)});
@@ -239,6 +242,39 @@ class RvizReader {
       const std::string why =
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
       Remark(display, called + " is not drawn: " + why);
+    }
+  }
+
+  // RViz lays the scene over the image, and the image over both: the share of the scene is what the
+  // latter leaves.
+  std::string CameraStyleOf(const YAML::Node& display, const std::string& called) {
+    const std::string rendering = TextOf(display, "Image Rendering", "background and overlay");
+    const bool has_overlay = rendering != "background";
+    if (rendering == "overlay") {
+      Remark(display, called + ": Image Rendering 'overlay' is drawn as 'background and overlay'");
+    }
+    if (rviz::NumberOf(display, "Zoom Factor", 1, 0, 1e5) != 1) {
+      Remark(display, called + ": Zoom Factor is not taken: the whole image is shown");
+    }
+    NameInvisible(Member(display, "Visibility"), display, called);
+    cameras_.emplace_back(display, called);
+    const double overlay = rviz::NumberOf(display, "Overlay Alpha", 0.5, 0, 1);
+    return "(scene=" + options::NumberText(has_overlay ? 1 - overlay : 1) + ")";
+  }
+
+  // What a Camera does not show although others do. Groups have members of their own.
+  void NameInvisible(const YAML::Node& visibility, const YAML::Node& display,
+                     const std::string& called) {
+    if (!visibility.IsDefined() || !visibility.IsMap()) return;
+    for (const auto& each : visibility) {
+      if (!each.first.IsScalar()) continue;
+      const std::string name = each.first.as<std::string>();
+      const bool is_group = each.second.IsMap();
+      const bool is_on = is_group ? BoolOf(each.second, "Value", true)
+                                  : name == "Value" || BoolOf(visibility, name, true);
+      if (is_on) continue;
+      return Remark(display, called + ": Visibility is not taken: " + Quoted(name) +
+                                 " and all else of the scene is drawn over its picture");
     }
   }
 
@@ -348,6 +384,9 @@ class RvizReader {
   }
 
   void SetParts(int line) {
+    for (const auto& [display, called] : cameras_) {
+      if (has_grid_) Remark(display, called + ": the floor is not drawn over its picture");
+    }
     Set("floor", has_grid_ ? "on" : "off", line);
     Set("figure", "urdf", line);
     std::string hidden = "shadows";  // RViz has none
@@ -419,6 +458,7 @@ class RvizReader {
   bool has_handles_ = true;  // of interactive markers
   bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
   std::set<std::string> shown_parts_;
+  std::vector<std::pair<YAML::Node, std::string>> cameras_;  // displays, and what they are called
 };
 
 template <class Load>

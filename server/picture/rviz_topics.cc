@@ -24,6 +24,7 @@ struct ShownProperties {
   const char* shapes = nullptr;  // the property that says Axes, in place of an arrow
 };
 constexpr char kNone[] = "";  // no property has this name
+constexpr char kDepthDisplay[] = "rviz/DepthCloud";
 constexpr ShownProperties OfPoints(const char* kind) {
   return {kind, nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"};
 }
@@ -40,6 +41,7 @@ constexpr ShownProperties kTopicDisplays[] = {
     OfPoints("rviz/LaserScan"),
     OfPoints("rviz/PointCloud"),
     OfPoints("rviz/PointCloud2"),
+    OfPoints(kDepthDisplay),
     OfPoints("rviz/Temperature"),
     OfPoints("rviz/Illuminance"),
     OfPoints("rviz/FluidPressure"),
@@ -88,6 +90,7 @@ class StyleReader {
   }
 
   TopicStyle Read() {
+    if (kind_ == kDepthDisplay) AddDepths();
     AddColor();
     if (Member(properties_, "Alpha").IsDefined()) {
       const double alpha = NumberOf(properties_, "Alpha", 1, 0, 1);
@@ -109,7 +112,34 @@ class StyleReader {
   void Add(const std::string& item) { style_.text += (style_.text.empty() ? "" : ",") + item; }
   void Remark(const std::string& what) { style_.remarks.push_back(what); }
 
+  // Of an image of depths.
+  void AddDepths() {
+    Add("cloud=on");
+    const std::string colors = TextOf(display_, "Color Image Topic", "");
+    if (IsTopicName(colors)) {
+      Add("colors=" + colors);
+      has_color_image_ = true;
+    } else if (!colors.empty()) {
+      Remark("Color Image Topic '" + colors + "' is no name of a topic");
+    }
+    const std::string transport = TextOf(display_, "Color Transport Hint", "raw");
+    if (has_color_image_ && transport != "raw") {
+      Remark("Color Transport Hint '" + transport + "' is read as 'raw'");
+    }
+    const YAML::Node automatic = Member(display_, "Auto Size");
+    const bool is_map = automatic.IsDefined() && automatic.IsMap();
+    has_own_size_ = is_map ? BoolOf(automatic, "Value", true) : BoolOf(display_, "Auto Size", true);
+    if (is_map && has_own_size_ && NumberOf(automatic, "Auto Size Factor", 1, 0, 1e3) != 1) {
+      Remark("Auto Size Factor is not taken: points are as large as their pixels");
+    }
+    const YAML::Node occlusion = Member(display_, "Occlusion Compensation");
+    if (occlusion.IsDefined() && occlusion.IsMap() && BoolOf(occlusion, "Value", false)) {
+      Remark("Occlusion Compensation: what is behind something nearer is not kept");
+    }
+  }
+
   void AddColor() {
+    if (has_color_image_) return;  // RViz takes no other transformer then
     if (has_.color == nullptr) return AddTransformer();
     AddColor("color=", has_.color, {1, 1, 1});
   }
@@ -195,11 +225,14 @@ class StyleReader {
     AddPathPoses();
     if (has_.color == nullptr) {
       const std::string style = TextOf(display_, "Style", "");
-      if (style == "Points") Remark("Style 'Points' is drawn as squares of 1 cm");
+      if (style == "Points") {
+        Remark(std::string("Style 'Points' is drawn as squares ") +
+               (kind_ == kDepthDisplay ? "as large as their pixels" : "of 1 cm"));
+      }
       if (style == "Spheres") Add("shape=spheres");
       if (style == "Boxes") Add("shape=cubes");
     }
-    if (size >= kSmallestShown) {
+    if (size >= kSmallestShown && !has_own_size_) {
       Add("size=" + options::NumberText(std::min(size, kLargestShown)));
     }
   }
@@ -314,6 +347,7 @@ class StyleReader {
   YAML::Node properties_;
   const std::string kind_;
   const ShownProperties& has_;
+  bool has_color_image_ = false, has_own_size_ = false;  // of depths
   TopicStyle style_;
 };
 

@@ -28,6 +28,7 @@ int Side(std::uint32_t px) {
 void ReadMembers(bool is_file, BoundedStream& stream, CameraImage& image) {
   std_msgs::Header header;
   stream.next(header);
+  image.stamp_nanos = static_cast<std::int64_t>(header.stamp.toNSec());
   if (is_file) {
     stream.next(image.encoding);  // "16UC1; compressedDepth png", for one
   } else {

@@ -8,6 +8,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "server/ros/calibration.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 #include "urdf/segments.h"
@@ -34,6 +35,8 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
                       topic.name));
     }
     topic.name = ros::names::resolve(topic.name);
+    std::string& colors = topic.style.camera.color_topic;
+    if (!colors.empty()) colors = ros::names::resolve(colors);
   }
   if (topics.size() > kMostShownTopics) {
     throw UsageError(fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(),
@@ -62,7 +65,8 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
   }
 }
 
-void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
+void MarkerInbox::OnMessage(std::size_t topic, const Event& event, bool has_colors,
+                            std::int64_t monotonic_nanos) {
   const RawMessage& raw = *event.getConstMessage();
   const ros::M_string& connection = event.getConnectionHeader();
   const auto said = [&](const char* key) {
@@ -70,6 +74,11 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     return found == connection.end() ? std::string() : found->second;
   };
   const std::string sum = said("md5sum");
+  const ShownStyle& style = topics_[topic].style;
+  if (has_colors) {
+    if (const auto refusal = shown_.TakeColors(topic, sum, raw.bytes)) Refuse(topic, *refusal);
+    return;
+  }
   constexpr char kUnreadable[] = "is truncated or has a wrong length field";
   if (sum == ros::message_traits::md5sum<visualization_msgs::Marker>()) {
     if (!Decode(raw.bytes, marker_))
@@ -82,13 +91,16 @@ void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t 
     for (const auto& marker : array_.markers) Take(topic, marker, monotonic_nanos);
     return;
   }
+  if (TopicMarkers::IsShown(sum, style)) {
+    return TakeShown(topic, sum, raw.bytes, monotonic_nanos);
+  }
+  if (IsCalibrationType(sum)) return TakeCalibration(topic, raw.bytes);
   if (IsImageType(sum)) {
     const auto& message = event.getConstMessage();  // which lives as long as its pixels are shown
     std::shared_ptr<const std::vector<std::uint8_t>> bytes(&message->bytes,
                                                            [message](const void*) {});
     return TakeImage(topic, ReadImage(sum, std::move(bytes)), monotonic_nanos);
   }
-  if (TopicMarkers::IsShown(sum)) return TakeShown(topic, sum, raw.bytes, monotonic_nanos);
   Refuse(topic,
          {"another type",
           fmt::format("message type {}: expected visualization_msgs/Marker, "
@@ -101,8 +113,19 @@ void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
   if (!image) return Refuse(topic, image.error());
   image->name = NameOfCamera(topics_[topic].name);
   image->received_nanos = monotonic_nanos;
-  if (const auto refusal = images_.Put(topic, *std::move(image))) return Refuse(topic, *refusal);
+  const CameraStyle& style = topics_[topic].style.camera;
+  if (const auto refusal = images_.Put(topic, *std::move(image), style)) {
+    return Refuse(topic, *refusal);
+  }
   CountUsed(topic);
+}
+
+void MarkerInbox::TakeCalibration(std::size_t topic, const std::vector<std::uint8_t>& bytes) {
+  sensor_msgs::CameraInfo info;
+  if (!ReadBounded(bytes.data(), bytes.size(), info)) return Refuse(topic, Unreadable());
+  const Taken<Calibration> calibration = ToCalibration(info);
+  if (!calibration) return Refuse(topic, calibration.error());
+  images_.PutCalibration(topic, *calibration);
 }
 
 void MarkerInbox::TakeShown(std::size_t topic, const std::string& md5sum,
@@ -112,7 +135,7 @@ void MarkerInbox::TakeShown(std::size_t topic, const std::string& md5sum,
   const auto refused = shown_.Take(topic, topics_[topic].name, style, md5sum, bytes, markers);
   const auto undrawn = store_.ApplyAll(topic, markers, monotonic_nanos, style);
   if (refused || undrawn) return Refuse(topic, refused ? *refused : *undrawn);
-  CountUsed(topic);
+  if (!IsCalibrationType(md5sum)) CountUsed(topic);
 }
 
 void MarkerInbox::CountUsed(std::size_t topic) {
@@ -184,21 +207,24 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
 }
 
 void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
-  bool changed =
-      store_.Update(monotonic_nanos, [this](const std::string& frame, std::int64_t stamp_nanos) {
-        return Find(frame, stamp_nanos);
-      });
+  const auto find = [this](const std::string& frame, std::int64_t stamp_nanos) {
+    return Find(frame, stamp_nanos);
+  };
+  bool changed = store_.Update(monotonic_nanos, find);
   changed = UpdateFrames(monotonic_nanos) || changed;
   if (changed) sink.OnMarkers(Together(store_.markers(), frames_));
+  images_.Update(monotonic_nanos, find);
   if (images_.TakeChanged()) sink.OnImages(images_.images());
   const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
   if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
-  for (const MarkerStore::Lost& lost : store_.TakeLost()) {
+  const auto note = [this](std::size_t topic, const std::string& text) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    InputCounters& counters = counters_[topics_[lost.topic].name];
+    InputCounters& counters = counters_[topics_[topic].name];
     ++counters.refused["unknown frame"];
-    counters.last_problem = lost.text;
-  }
+    counters.last_problem = text;
+  };
+  for (const MarkerStore::Lost& lost : store_.TakeLost()) note(lost.topic, lost.text);
+  for (const ImageBox::Lost& lost : images_.TakeLost()) note(lost.topic, lost.text);
 }
 
 std::map<std::string, InputCounters> MarkerInbox::counters() const {
@@ -209,11 +235,12 @@ std::map<std::string, InputCounters> MarkerInbox::counters() const {
 std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
                                               const std::shared_ptr<MarkerInbox>& inbox) {
   std::vector<ros::Subscriber> all;
-  const auto subscribe = [&](std::size_t topic, const std::string& name) {
+  const auto subscribe = [&](std::size_t topic, const HeardTopic& heard) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const MarkerInbox::Event&>(
-        name, kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
-          inbox->OnMessage(topic, event, MonotonicNanos());
+        heard.name, kMarkerQueue,
+        [inbox, topic, has_colors = heard.has_colors](const MarkerInbox::Event& event) {
+          inbox->OnMessage(topic, event, has_colors, MonotonicNanos());
         });
     options.callback_queue = &queue;
     options.transport_hints = ros::TransportHints().tcpNoDelay();
@@ -222,8 +249,7 @@ std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::Callba
   for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
     const ShownTopic& shown = inbox->topics()[topic];
     if (shown.is_frame) continue;
-    subscribe(topic, shown.name);
-    if (const std::string whole = TopicOfAll(shown.name); !whole.empty()) subscribe(topic, whole);
+    for (const HeardTopic& heard : TopicsHeardFor(shown)) subscribe(topic, heard);
   }
   return all;
 }

@@ -41,7 +41,9 @@ class MarkerInbox {
   // The following functions are for the thread that reads samples.
 
   using Event = ros::MessageEvent<const RawMessage>;
-  void OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos);
+  /// @param has_colors  of HeardTopic
+  void OnMessage(std::size_t topic, const Event& event, bool has_colors,
+                 std::int64_t monotonic_nanos);
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
   /// Passes on the markers, the pictures and the camera's frame if they have changed.
@@ -59,6 +61,7 @@ class MarkerInbox {
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
   void TakeImage(std::size_t topic, Taken<CameraImage> image, std::int64_t monotonic_nanos);
+  void TakeCalibration(std::size_t topic, const std::vector<std::uint8_t>& bytes);
   void TakeShown(std::size_t topic, const std::string& md5sum,
                  const std::vector<std::uint8_t>& bytes, std::int64_t monotonic_nanos);
   void CountUsed(std::size_t topic);

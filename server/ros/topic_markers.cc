@@ -2,9 +2,12 @@
 
 #include <ros/message_traits.h>
 
+#include <memory>
 #include <string_view>
 #include <utility>
 
+#include "server/ros/calibration.h"
+#include "server/ros/image_messages.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 
@@ -33,6 +36,15 @@ std::optional<Refusal> TakeInteractive(InteractiveMarkers& markers, const ShownS
   return markers.Take(message, style, out);
 }
 
+bool IsOfDepths(const std::string& md5sum, const ShownStyle& style) {
+  return style.camera.is_cloud && (IsImageType(md5sum) || IsCalibrationType(md5sum));
+}
+
+// An image that does not outlive `bytes`.
+Taken<CameraImage> ReadImageIn(const std::string& md5sum, const std::vector<std::uint8_t>& bytes) {
+  return ReadImage(md5sum, {std::shared_ptr<const void>(), &bytes});
+}
+
 bool EndsWithUpdate(const std::string& topic) {
   return topic.size() > kUpdate.size() &&
          topic.compare(topic.size() - kUpdate.size(), std::string::npos, kUpdate) == 0;
@@ -40,8 +52,8 @@ bool EndsWithUpdate(const std::string& topic) {
 
 }  // namespace
 
-bool TopicMarkers::IsShown(const std::string& md5sum) {
-  return IsInteractive(md5sum) || FindShownMessage(md5sum) != nullptr;
+bool TopicMarkers::IsShown(const std::string& md5sum, const ShownStyle& style) {
+  return IsInteractive(md5sum) || IsOfDepths(md5sum, style) || FindShownMessage(md5sum) != nullptr;
 }
 
 std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& name,
@@ -58,8 +70,10 @@ std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& 
                   : TakeInteractive<InteractiveMarkerUpdate>(servers, style, bytes, markers);
     if (EndsWithUpdate(name)) source.resize(name.size() - kUpdate.size());
   } else {
-    Taken<ShownMarkers> shown = FindShownMessage(md5sum)(bytes, style);
+    Taken<ShownMarkers> shown = IsOfDepths(md5sum, style) ? TakeDepths(topic, style, md5sum, bytes)
+                                                          : FindShownMessage(md5sum)(bytes, style);
     if (!shown) return shown.error();
+    if (shown->empty()) return std::nullopt;
     if (!shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
     markers = *std::move(shown);
   }
@@ -70,8 +84,42 @@ std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& 
   return refusal;
 }
 
-std::string TopicOfAll(const std::string& topic) {
-  return EndsWithUpdate(topic) ? topic + "_full" : "";
+std::optional<Refusal> TopicMarkers::TakeColors(std::size_t topic, const std::string& md5sum,
+                                                const std::vector<std::uint8_t>& bytes) {
+  if (!IsImageType(md5sum)) return Refusal{"another type", "colours of depths: no image"};
+  Taken<CameraImage> image =
+      ReadImage(md5sum, std::make_shared<const std::vector<std::uint8_t>>(bytes));
+  if (!image) return image.error();
+  return clouds_.PutColors(topic, *std::move(image));
+}
+
+Taken<ShownMarkers> TopicMarkers::TakeDepths(std::size_t topic, const ShownStyle& style,
+                                             const std::string& md5sum,
+                                             const std::vector<std::uint8_t>& bytes) {
+  if (IsCalibrationType(md5sum)) {
+    sensor_msgs::CameraInfo info;
+    if (!ReadBounded(bytes.data(), bytes.size(), info)) return tl::unexpected(Unreadable());
+    const Taken<Calibration> calibration = ToCalibration(info);
+    if (!calibration) return tl::unexpected(calibration.error());
+    clouds_.PutCalibration(topic, *calibration);
+    return ShownMarkers{};
+  }
+  const Taken<CameraImage> depths = ReadImageIn(md5sum, bytes);
+  if (!depths) return tl::unexpected(depths.error());
+  std_msgs::Header header;
+  if (!ReadBounded(bytes.data(), bytes.size(), header)) return tl::unexpected(Unreadable());
+  return clouds_.ToMarkers(topic, *depths, header, style);
+}
+
+std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown) {
+  std::vector<HeardTopic> all = {{shown.name}};
+  if (EndsWithUpdate(shown.name)) all.push_back({shown.name + "_full"});
+  const CameraStyle& camera = shown.style.camera;
+  if (camera.is_cloud || camera.scene_opacity > 0) {
+    all.push_back({CalibrationTopicOf(shown.name)});
+  }
+  if (!camera.color_topic.empty()) all.push_back({camera.color_topic, true});
+  return all;
 }
 
 std::string NamesOfShownTypes() {

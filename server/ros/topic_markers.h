@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/graph_view.h"
+#include "server/ros/depth_clouds.h"
 #include "server/ros/earlier_messages.h"
 #include "server/ros/interactive_markers.h"
 #include "server/ros/shown_messages.h"
@@ -18,25 +19,40 @@ namespace kinescope::ros_bridge {
 
 class TopicMarkers {
  public:
-  /// Whether messages of this type are shown as markers.
-  static bool IsShown(const std::string& md5sum);
+  /// Whether messages of this type are shown as markers, or say how others are: of a cloud of
+  /// depths, the calibration.
+  static bool IsShown(const std::string& md5sum, const ShownStyle& style);
 
   /// Of a message of topic number `topic`, in a namespace as a legend has it: "plan" for "/plan",
-  /// "goals" for "/goals/update" of interactive markers. @pre IsShown(md5sum)
+  /// "goals" for "/goals/update" of interactive markers. @pre IsShown(md5sum, style)
   /// @param out  markers to add, change and delete are appended, also where something is refused
   [[nodiscard]] std::optional<Refusal> Take(std::size_t topic, const std::string& name,
                                             const ShownStyle& style, const std::string& md5sum,
                                             const std::vector<std::uint8_t>& bytes,
                                             ShownMarkers& out);
 
+  /// An image with the colours of the next cloud of depths.
+  [[nodiscard]] std::optional<Refusal> TakeColors(std::size_t topic, const std::string& md5sum,
+                                                  const std::vector<std::uint8_t>& bytes);
+
  private:
+  Taken<ShownMarkers> TakeDepths(std::size_t topic, const ShownStyle& style,
+                                 const std::string& md5sum, const std::vector<std::uint8_t>& bytes);
+
   MessageShelf shelf_;
   std::map<std::size_t, InteractiveMarkers> interactive_;  // by topic
+  DepthClouds clouds_;
 };
 
-/// A server of interactive markers has a topic "<name>/update" and beside it this one, which has
-/// all that it shows; "": `topic` is not the former.
-std::string TopicOfAll(const std::string& topic);
+/// A topic that is heard for one that is shown.
+struct HeardTopic {
+  std::string name;
+  bool has_colors = false;  // of a cloud of depths
+};
+/// The topic itself, and those beside it: of a server of interactive markers, "<name>/update_full"
+/// beside "<name>/update", which has all that it shows; of images, the calibration of their camera
+/// where the scene is drawn over them; of depths, the calibration and the colours.
+std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown);
 
 /// "geometry_msgs/PointStamped, ..."
 std::string NamesOfShownTypes();

@@ -270,6 +270,66 @@ test('a camera of another node is over a corner of the view, says when it is old
   stop();
 });
 
+test('the scene is over the image of a camera, as it sees it, alike on the page and in the picture', async () => {
+  const { env, stop } = await startMaster();
+  const publisher = spawn(process.env.KINESCOPE_MARKER_PUBLISHER, [], { stdio: ['pipe', 'pipe', 'ignore'], env: { ...process.env, ...env } });
+  endWithTests(publisher);
+  const site = await serve('demo:n_pose', ['--ros', 'required', '--marker_topics', '/lab/image_raw(scene=1)'], env);
+  const { page, problems, close } = await openPage(site.url);
+  const canvas = page.locator('#camera-images canvas');
+  const covered = () => canvas.evaluate((shown) => {
+    const { width, height } = shown;
+    const { data } = shown.getContext('2d').getImageData(0, 0, width, height);
+    return { width, height, pixels: Array.from({ length: width * height }, (_, i) => (data[4 * i + 3] > 127 ? 1 : 0)) };
+  });
+  await page.waitForFunction(() => document.querySelector('#camera-images canvas')?.width > 200, null, LONG);
+  const enlarge = page.getByRole('button', { name: 'Enlarge camera lab/image_raw' });
+  await enlarge.click();
+  await page.mouse.move(0, 0);
+  assert.equal(await enlarge.getAttribute('aria-pressed'), 'true');
+  await page.waitForFunction(() => document.querySelector('#camera-images canvas').width > 400, null, LONG);
+  await page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
+    name.includes('api/v1/skin') && responseEnd > 0), null, LONG);
+  await settled(page, '#camera-images figure');
+  const seen = await covered();
+  assert.ok(await page.locator('#camera-images figure').evaluate((figure) => {
+    const image = figure.querySelector('img').getBoundingClientRect(), over = figure.querySelector('canvas').getBoundingClientRect();
+    return Math.abs(image.width - over.width) < 2 && Math.abs(image.height - over.height) < 2 && Math.abs(image.top - over.top) < 2;
+  }));
+  await saveScreenshot(page, 'scene_over_image');
+
+  // In the picture the image is at the right edge; its left half is orange, which gives its place.
+  const { data, width } = pixelsOfPng(Buffer.from(await (await fetch(`${site.url}api/v1/snapshot.png?width=1280&height=720`)).arrayBuffer()));
+  const colorAt = (x, y) => [0, 1, 2].map((i) => data[4 * (y * width + x) + i]);
+  const isOf = (color, wanted) => color.every((value, i) => Math.abs(value - wanted[i]) < 12);
+  const orange = [];
+  for (let y = 0; y < 720; ++y) for (let x = 640; x < width; ++x) if (isOf(colorAt(x, y), [255, 120, 0])) orange.push([x, y]);
+  const left = Math.min(...orange.map(([x]) => x)), top = Math.min(...orange.map(([, y]) => y));
+  const pane = { width: 282, height: 211 };  // 22 % of the width of the picture
+  const isOfScene = (x, y) => {
+    const color = colorAt(left + Math.round(x * (pane.width - 1)), top + Math.round(y * (pane.height - 1)));
+    return !isOf(color, [255, 120, 0]) && !isOf(color, [255, 255, 255]);
+  };
+  let same = 0, all = 0, ofScene = 0;
+  for (let y = 0.01; y < 0.85; y += 0.01) {  // above the name
+    for (let x = 0.01; x < 0.99; x += 0.01) {
+      if (Math.abs(x - 0.5) < 0.01) continue;  // where orange meets white
+      const onPage = seen.pixels[Math.floor(y * seen.height) * seen.width + Math.floor(x * seen.width)] === 1;
+      const inPicture = isOfScene(x, y);
+      all += 1;
+      ofScene += inPicture ? 1 : 0;
+      same += onPage === inPicture ? 1 : 0;
+    }
+  }
+  assert.ok(ofScene > 0.05 * all, `${ofScene} of ${all}`);
+  assert.ok(same > 0.97 * all, `${same} of ${all} places alike; ${ofScene} are of the scene`);
+  assert.deepEqual(problems, []);
+  await close();
+  await site.stop();
+  publisher.kill();
+  stop();
+});
+
 /** The share of the pixels of `one` that `other` covers, or a pixel beside them: lines are not much wider than that. */
 function found(one, other, leftOut, { width }) {
   const beside = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => dy * width + dx));

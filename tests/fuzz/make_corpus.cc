@@ -488,6 +488,19 @@ void WriteMaps(const fs::path& folder) {
                               .Text("16UC1; compressedDepth png")
                               .Text(head + std::string(png.begin(), png.end()))
                               .bytes());
+  RosBytes depths('\36');
+  depths.Header("camera").Count(2).Count(2).Text("16UC1").Byte(0).Count(4).Count(8);
+  for (int i = 0; i < 8; ++i) depths.Byte(i);
+  Write(folder / "depth_image", depths.bytes());
+  for (const bool is_of_depths : {true, false}) {
+    RosBytes info(is_of_depths ? '\37' : '\40');
+    info.Header("camera").Count(480).Count(640).Text("plumb_bob").Count(0);
+    info.Reals<double>({525, 0, 320, 0, 525, 240, 0, 0, 1})
+        .Reals<double>({1, 0, 0, 0, 1, 0, 0, 0, 1});
+    info.Reals<double>({525, 0, 320, -60, 0, 525, 240, 0, 0, 0, 1, 0});
+    for (int i = 0; i < 6; ++i) info.Count(0);  // binning, region
+    Write(folder / (is_of_depths ? "depth_calibration" : "calibration"), info.Byte(0).bytes());
+  }
 }
 
 // Temperature, illuminance, pressure, humidity: a value and its variance. Arrows and a range.

@@ -15,12 +15,15 @@
 #include <vector>
 
 #include "core/system/check.h"
+#include "render/camera/image_view.h"
 #include "render/image/camera_picture.h"
+#include "server/ros/calibration.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/interactive_markers.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
+#include "server/ros/topic_markers.h"
 
 namespace {
 
@@ -103,6 +106,47 @@ void CheckInteractive(const std::vector<std::uint8_t>& bytes) {
   CheckMarkers(all);
 }
 
+// Depths before and after a calibration, which may be the bytes.
+template <class Message>
+void CheckDepths(const std::vector<std::uint8_t>& bytes) {
+  ShownStyle style;
+  style.camera.is_cloud = true;
+  sensor_msgs::CameraInfo info;
+  info.width = info.height = 4;
+  info.P[0] = info.P[5] = 4;
+  std::vector<std::uint8_t> known(ros::serialization::serializationLength(info));
+  ros::serialization::OStream out(known.data(), static_cast<std::uint32_t>(known.size()));
+  ros::serialization::serialize(out, info);
+  TopicMarkers topics;
+  ShownMarkers markers;
+  const auto take = [&](const std::string& type, const std::vector<std::uint8_t>& message) {
+    const auto refusal = topics.Take(0, "depth", style, type, message, markers);
+    KINESCOPE_CHECK(!refusal || !refusal->text.empty());
+  };
+  const std::string type = ros::message_traits::md5sum<Message>();
+  take(type, bytes);
+  take(ros::message_traits::md5sum<sensor_msgs::CameraInfo>(), known);
+  if (type == ros::message_traits::md5sum<sensor_msgs::Image>()) {
+    const auto refusal = topics.TakeColors(0, type, bytes);
+    KINESCOPE_CHECK(!refusal || !refusal->text.empty());
+  }
+  take(type, bytes);
+  CheckMarkers(markers);
+}
+
+// A calibration that is taken is one of a camera that can be drawn with.
+void CheckCalibration(const std::vector<std::uint8_t>& bytes) {
+  sensor_msgs::CameraInfo info;
+  if (!Read(bytes, info)) return;
+  const auto calibration = ToCalibration(info);
+  if (!calibration) return KINESCOPE_CHECK(!calibration.error().text.empty());
+  KINESCOPE_CHECK(FindDefect(calibration->camera).empty());
+  const render::ImageView view = render::ViewOf(calibration->camera, 40, 30);
+  KINESCOPE_CHECK(view.image.x >= 0 && view.image.x + view.image.width <= view.width);
+  KINESCOPE_CHECK(view.image.y >= 0 && view.image.y + view.image.height <= view.height);
+  KINESCOPE_CHECK(view.width <= 200 && view.height <= 200);
+}
+
 template <class Message>
 void CheckImage(const std::vector<std::uint8_t>& bytes) {
   const auto image = ReadImage(ros::message_traits::md5sum<Message>(),
@@ -118,7 +162,7 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 30) {
+  switch (data[0] % 33) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -156,7 +200,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 26: CheckShown<geometry_msgs::AccelStamped>(bytes); break;
     case 27: CheckShown<sensor_msgs::Range>(bytes); break;
     case 28: CheckInteractive<visualization_msgs::InteractiveMarkerInit>(bytes); break;
-    default: CheckInteractive<visualization_msgs::InteractiveMarkerUpdate>(bytes); break;
+    case 29: CheckInteractive<visualization_msgs::InteractiveMarkerUpdate>(bytes); break;
+    case 30: CheckDepths<sensor_msgs::Image>(bytes); break;
+    case 31: CheckDepths<sensor_msgs::CameraInfo>(bytes); break;
+    default: CheckCalibration(bytes); break;
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "tests/render/test_scene.h"
@@ -41,6 +42,7 @@ std::vector<double> HeightsOf(const SceneState& scene, const Camera& camera,
     for (const Eigen::Isometry3d& link : robot.world_from_link) add(link.translation());
   }
   for (const auto& marker : scene.markers) add(marker->pose.position);
+  for (const auto& image : scene.images) add(image->camera->world_from_optical.position);
   for (const Pane& pane : spec.panes) {
     add(pane.camera.position);
     add(pane.camera.target);
@@ -56,6 +58,9 @@ TEST(LiftToFloor, RaisesEverythingWithAPositionWithoutSidewaysMotion) {
   scene.floor_z = -0.75;
   testing::Wear(scene.people[0]);
   scene.objects.emplace_back();
+  auto taken = std::make_shared<CameraImage>();
+  taken->camera = ImageCamera{};
+  scene.images = {taken};
   scene.robots.emplace_back();
   scene.robots[0].world_from_link.assign(2, Eigen::Isometry3d::Identity());
   const auto marker = std::make_shared<const SceneMarker>();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "server/ros/calibration.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 #include "server/ros/names.h"
@@ -37,13 +38,13 @@ bool HasJoints(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::md5sum<sensor_msgs::JointState>();
 }
 
-std::map<std::string, ShownTopic> ByName(const std::vector<ShownTopic>& topics) {
-  std::map<std::string, ShownTopic> all;
+std::vector<ShownTopic> WithSlashes(const std::vector<ShownTopic>& topics) {
+  std::vector<ShownTopic> all;
   for (const ShownTopic& topic : topics) {
     if (topic.is_frame) continue;
-    const ShownTopic named{WithSlash(topic.name), topic.style};
-    all.insert_or_assign(named.name, named);
-    if (const std::string whole = TopicOfAll(named.name); !whole.empty()) all.emplace(whole, named);
+    all.push_back({WithSlash(topic.name), topic.style});
+    std::string& colors = all.back().style.camera.color_topic;
+    if (!colors.empty()) colors = WithSlash(colors);
   }
   return all;
 }
@@ -53,7 +54,12 @@ bool IsWhole(const BagMessage& message) { return message.bytes.size() == message
 }  // namespace
 
 BagSurroundings::BagSurroundings(const GraphView& view)
-    : shown_topics_(ByName(view.topics)), camera_frame_(view.camera_frame) {
+    : shown_topics_(WithSlashes(view.topics)), camera_frame_(view.camera_frame) {
+  for (std::size_t i = 0; i < shown_topics_.size(); ++i) {
+    for (const HeardTopic& heard : TopicsHeardFor(shown_topics_[i])) {
+      heard_.emplace(heard.name, Heard{i, heard.has_colors});
+    }
+  }
   for (const ShownTopic& topic : view.topics) {
     if (!topic.is_frame) continue;
     if (topic.is_every_frame()) {
@@ -76,16 +82,35 @@ bool BagSurroundings::IsUsed(const BagConnection& connection) const {
     return std::any_of(robots_.begin(), robots_.end(),
                        [&](const Robot& robot) { return robot.joint_states == topic; });
   }
-  return shown_topics_.count(topic) != 0 &&
-         (IsImageType(connection.md5sum) || TopicMarkers::IsShown(connection.md5sum));
+  const std::string& type = connection.md5sum;
+  const auto [first, last] = heard_.equal_range(topic);
+  return std::any_of(first, last, [&](const auto& heard) {
+    return IsImageType(type) || IsCalibrationType(type) ||
+           TopicMarkers::IsShown(type, shown_topics_[heard.second.shown].style);
+  });
 }
 
 void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
   if (HasJoints(connection)) return TakeJointStates(message, counters);
   if (IsOne(connection) || IsArray(connection)) return TakeMarkers(message, counters);
-  if (IsImageType(connection.md5sum)) return TakeImage(message, counters);
-  TakeShown(message, counters);
+  const std::string& type = connection.md5sum;
+  const auto [first, last] = heard_.equal_range(WithSlash(connection.topic));
+  for (auto each = first; each != last; ++each) {
+    const auto& [shown, has_colors] = each->second;
+    const ShownTopic& topic = shown_topics_[shown];
+    const auto number = NumberOf(shown, counters);
+    if (!number) continue;
+    if (has_colors) {
+      TakeColors(*number, message, counters);
+    } else if (TopicMarkers::IsShown(type, topic.style)) {
+      TakeShown(topic, *number, message, counters);
+    } else if (IsCalibrationType(type)) {
+      TakeCalibration(*number, message, counters);
+    } else if (IsImageType(type)) {
+      TakeImage(topic, *number, message, counters);
+    }
+  }
 }
 
 // Into array_. Why it cannot be used, or null.
@@ -108,6 +133,14 @@ std::optional<std::size_t> BagSurroundings::NumberOf(const std::string& topic,
   return topics_.try_emplace(topic, topics_.size()).first->second;
 }
 
+std::optional<std::size_t> BagSurroundings::NumberOf(std::size_t shown, SourceCounters& counters) {
+  const std::string& name = shown_topics_[shown].name;
+  const auto first = std::find_if(shown_topics_.begin(), shown_topics_.end(),
+                                  [&](const ShownTopic& topic) { return topic.name == name; });
+  const auto place = static_cast<std::size_t>(first - shown_topics_.begin());
+  return NumberOf(place == shown ? name : name + " " + std::to_string(shown), counters);
+}
+
 void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& counters) {
   if (const char* const defect = Decode(message)) {
     ++counters.rejected[defect];
@@ -120,41 +153,65 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
   const auto number = NumberOf(message.connection->topic, counters);
   if (!number) return;
   has_markers_ = true;
-  const auto named = shown_topics_.find(WithSlash(message.connection->topic));
-  const ShownStyle style = named == shown_topics_.end() ? ShownStyle() : named->second.style;
+  const auto named = heard_.find(WithSlash(message.connection->topic));
+  const ShownStyle style =
+      named == heard_.end() ? ShownStyle() : shown_topics_[named->second.shown].style;
   const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
   if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
 }
 
-void BagSurroundings::TakeShown(const BagMessage& message, SourceCounters& counters) {
+void BagSurroundings::TakeShown(const ShownTopic& topic, std::size_t number,
+                                const BagMessage& message, SourceCounters& counters) {
   if (!IsWhole(message)) {
     ++counters.rejected["messages of more than 16 MiB"];
     return;
   }
-  const ShownTopic& topic = shown_topics_.at(WithSlash(message.connection->topic));
-  const auto number = NumberOf(topic.name, counters);
-  if (!number) return;
   has_markers_ = true;
   ShownMarkers markers;
-  const auto refused = shown_.Take(*number, topic.name, topic.style, message.connection->md5sum,
+  const auto refused = shown_.Take(number, topic.name, topic.style, message.connection->md5sum,
                                    message.bytes, markers);
-  const auto undrawn = store_.ApplyAll(*number, markers, message.recorded_nanos, topic.style);
+  const auto undrawn = store_.ApplyAll(number, markers, message.recorded_nanos, topic.style);
   if (refused || undrawn) {
     ++counters.rejected[message.connection->type + ": " + (refused ? refused : undrawn)->kind];
   }
 }
 
-void BagSurroundings::TakeImage(const BagMessage& message, SourceCounters& counters) {
+void BagSurroundings::TakeImage(const ShownTopic& topic, std::size_t number,
+                                const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
   const auto refuse = [&](const char* kind) { ++counters.rejected[connection.type + ": " + kind]; };
   if (!IsWhole(message)) return refuse("more than 16 MiB");
   Taken<CameraImage> image = ReadImage(
       connection.md5sum, std::make_shared<const std::vector<std::uint8_t>>(message.bytes));
   if (!image) return refuse(image.error().kind);
-  const auto number = NumberOf(connection.topic, counters);
-  if (!number) return;
-  image->name = NameOfCamera(WithSlash(connection.topic));
-  if (const auto refusal = images_.Put(*number, *std::move(image))) refuse(refusal->kind);
+  image->name = NameOfCamera(topic.name);
+  const CameraStyle& style = topic.style.camera;
+  has_scenes_on_images_ = has_scenes_on_images_ || style.scene_opacity > 0;
+  const auto refusal = images_.Put(number, *std::move(image), style);
+  if (refusal) refuse(refusal->kind);
+}
+
+void BagSurroundings::TakeCalibration(std::size_t number, const BagMessage& message,
+                                      SourceCounters& counters) {
+  const auto refuse = [&](const char* kind) {
+    ++counters.rejected[message.connection->type + ": " + kind];
+  };
+  sensor_msgs::CameraInfo info;
+  if (!IsWhole(message) || !ReadBounded(message.bytes.data(), message.bytes.size(), info)) {
+    return refuse(Unreadable().kind);
+  }
+  const Taken<Calibration> calibration = ToCalibration(info);
+  if (!calibration) return refuse(calibration.error().kind);
+  images_.PutCalibration(number, *calibration);
+}
+
+void BagSurroundings::TakeColors(std::size_t number, const BagMessage& message,
+                                 SourceCounters& counters) {
+  const BagConnection& connection = *message.connection;
+  const auto refusal = IsWhole(message)
+                           ? shown_.TakeColors(number, connection.md5sum, message.bytes)
+                           : std::optional<Refusal>(Refusal{"more than 16 MiB", ""});
+  if (refusal) ++counters.rejected[connection.type + ": " + refusal->kind];
 }
 
 void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters& counters) {
@@ -170,8 +227,8 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
 }
 
 void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
-  const bool is_used =
-      has_markers_ || !robots_.empty() || camera_frame_.is_wanted() || frames_ || is_static;
+  const bool is_used = has_markers_ || has_scenes_on_images_ || !robots_.empty() ||
+                       camera_frame_.is_wanted() || frames_ || is_static;
   if (is_used) tf_.Add(message, is_static);
 }
 
@@ -200,6 +257,7 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   };
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
+  images_.Update(now_nanos, find);
   const bool has_new_images = images_.TakeChanged();
   const auto find_now = [&find](const std::string& frame) { return find(frame, 0); };
   const bool has_new_base = camera_frame_.Update(now_nanos, find_now);
@@ -215,10 +273,12 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     for (const Robot& robot : robots_) all.robots.push_back(robot.frames.now());
     sink.OnSurroundings(all);
   }
-  for (const MarkerStore::Lost& lost : store_.TakeLost()) {
-    if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(lost.text).second) continue;
-    spdlog::warn("bag '{}': {}; it is not shown", bag, lost.text);
-  }
+  const auto warn = [&](const std::string& text) {
+    if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(text).second) return;
+    spdlog::warn("bag '{}': {}", bag, text);
+  };
+  for (const MarkerStore::Lost& lost : store_.TakeLost()) warn(lost.text + "; it is not shown");
+  for (const ImageBox::Lost& lost : images_.TakeLost()) warn(lost.text);
   if (!frames_) return;
   const std::string lost = frames_->TakeLost();
   if (!lost.empty()) spdlog::warn("bag '{}': {}", bag, lost);

@@ -57,21 +57,33 @@ class BagSurroundings {
     std::string joint_states;  // topic
   };
 
+  struct Heard {
+    std::size_t shown = 0;
+    bool has_colors = false;
+  };
+
   const char* Decode(const BagMessage& message);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
-  void TakeShown(const BagMessage& message, SourceCounters& counters);
-  void TakeImage(const BagMessage& message, SourceCounters& counters);
+  void TakeShown(const ShownTopic& topic, std::size_t number, const BagMessage& message,
+                 SourceCounters& counters);
+  void TakeImage(const ShownTopic& topic, std::size_t number, const BagMessage& message,
+                 SourceCounters& counters);
+  void TakeCalibration(std::size_t number, const BagMessage& message, SourceCounters& counters);
+  void TakeColors(std::size_t number, const BagMessage& message, SourceCounters& counters);
   void TakeJointStates(const BagMessage& message, SourceCounters& counters);
-  /// The number of a topic; nullopt, counted: there are too many.
+  /// The number of a topic; nullopt, counted: there are too many. What is shown of one topic in
+  /// several ways has a number each.
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
+  std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
   bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
 
-  /// By name, with its slash; also those that say all of a server of interactive markers.
-  const std::map<std::string, ShownTopic> shown_topics_;
+  const std::vector<ShownTopic> shown_topics_;  // their names have slashes
+  /// Places in shown_topics_, by the name of a topic that is heard for them.
+  std::multimap<std::string, Heard> heard_;
   std::vector<Robot> robots_;
   bool has_new_robots_ = true;
   std::optional<std::int64_t> placed_nanos_;
-  bool has_markers_ = false;
+  bool has_markers_ = false, has_scenes_on_images_ = false;
   MarkerStore store_;
   TopicMarkers shown_;
   ImageBox images_;

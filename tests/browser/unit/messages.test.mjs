@@ -12,7 +12,12 @@ const person = {
 const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [person],
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }],
-  images: [{ name: 'camera', is_old: false }],
+  images: [{
+    name: 'camera', is_old: false, camera: {
+      width: 640, height: 480, focal_px: [525, 525], center_px: [319.5, 239.5], position: [1, 2, 3], orientation: [0, 0, 0, 1],
+      scene_opacity: 0.5,
+    },
+  }],
   recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null },
   marks_revision: 7, surroundings: 3, class_limits: [0.3, 0.6], class_falls_below: [0.25, 0.55] };
 const palette = {

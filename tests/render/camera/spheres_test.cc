@@ -17,12 +17,12 @@ using kinescope::testing::MixedScene;
 using kinescope::testing::Posture;
 using kinescope::testing::SceneWith;
 
-constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kSpheresWidth = 1280, kSpheresHeight = 720;
 
 PictureSpec PlainView(int supersample = 1) {
   PictureSpec spec;
-  spec.width = kWidth;
-  spec.height = kHeight;
+  spec.width = kSpheresWidth;
+  spec.height = kSpheresHeight;
   spec.supersample = supersample;
   spec.overlays = false;
   return spec;
@@ -38,14 +38,14 @@ const SphereInPicture& Find(const std::vector<SphereInPicture>& spheres, const s
 TEST(Spheres, AreAtTheProjectionsOfTheirJoints) {
   const SceneState state = SceneWith(Posture::kStanding);
   const Camera camera = NamedCamera("front", state);
-  const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
+  const auto spheres = LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight);
   ASSERT_EQ(spheres.size(), state.people[0].loads.size());
   const SphereInPicture& elbow = Find(spheres, "right_elbow");
-  const Projected expected =
-      Project(state.people[0].links[urdf::kRightForeArm].position, camera, kWidth, kHeight);
+  const Projected expected = Project(state.people[0].links[urdf::kRightForeArm].position, camera,
+                                     kSpheresWidth, kSpheresHeight);
   EXPECT_NEAR(elbow.x_px, expected.x_px, 1e-9);
   EXPECT_NEAR(elbow.y_px, expected.y_px, 1e-9);
-  EXPECT_LT(elbow.x_px, kWidth / 2) << "seen from the front, the right arm is on the left";
+  EXPECT_LT(elbow.x_px, kSpheresWidth / 2) << "seen from the front, the right arm is on the left";
   EXPECT_GT(elbow.radius_px, 5);
 }
 
@@ -57,7 +57,7 @@ TEST(Spheres, ShowEveryClassReadably) {
     const Camera camera = NamedCamera("front", state);
     for (const int supersample : {1, 2}) {
       const Image image = renderer->Render(state, camera, PlainView(supersample));
-      const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
+      const auto spheres = LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight);
       int readable = 0;
       for (std::size_t i = 0; i < spheres.size(); ++i) {
         const Reading reading = ReadSphere(image, spheres, i);
@@ -79,7 +79,7 @@ TEST(Spheres, MatchTheStateFromEverySide) {
     for (const std::string& name : CameraNames()) {
       const Camera camera = NamedCamera(name, state);
       const Image image = renderer->Render(state, camera, PlainView());
-      const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
+      const auto spheres = LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight);
       EXPECT_THAT(FindSphereMismatches(image, spheres), ::testing::IsEmpty()) << name;
     }
   }
@@ -93,14 +93,14 @@ TEST(Spheres, OfHiddenJointsAreVisibleThroughTheBody) {
   const Camera camera = NamedCamera("left", state);
   const auto renderer = MakeRenderer();
   const Image image = renderer->Render(state, camera, PlainView());
-  const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
+  const auto spheres = LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight);
   EXPECT_EQ(ReadSphere(image, spheres, 0).shown, LoadClass::kHigh);
   // Paler than one that lies open: it must not look nearer than it is.
   const Camera right = NamedCamera("right", state);
   const Image open = renderer->Render(state, right, PlainView());
   const auto red_minus_green = [&](const Image& picture, const Camera& from) {
-    const SphereInPicture sphere = LocateSpheres(state, from, kWidth, kHeight).at(0);
-    const auto at = 4 * (static_cast<std::size_t>(sphere.y_px) * kWidth +
+    const SphereInPicture sphere = LocateSpheres(state, from, kSpheresWidth, kSpheresHeight).at(0);
+    const auto at = 4 * (static_cast<std::size_t>(sphere.y_px) * kSpheresWidth +
                          static_cast<std::size_t>(sphere.x_px));
     return picture.rgba[at] - picture.rgba[at + 1];
   };
@@ -113,15 +113,19 @@ TEST(Spheres, OfAnotherStateAreReportedAsMismatches) {
   LoadOf(expected, urdf::jRightElbow).load_class = LoadClass::kLow;
   const Camera camera = NamedCamera("front", drawn);
   const Image image = MakeRenderer()->Render(drawn, camera, PlainView());
-  EXPECT_THAT(FindSphereMismatches(image, LocateSpheres(expected, camera, kWidth, kHeight)),
-              ::testing::ElementsAre("right_elbow shows orange, expected green"));
+  EXPECT_THAT(
+      FindSphereMismatches(image, LocateSpheres(expected, camera, kSpheresWidth, kSpheresHeight)),
+      ::testing::ElementsAre("right_elbow shows orange, expected green"));
 }
 
 TEST(Spheres, AreMissingInABlankPicture) {
   const SceneState state = SceneWith(Posture::kStanding, LoadClass::kHigh);
   const Camera camera = NamedCamera("front", state);
-  Image blank{kWidth, kHeight, std::vector<std::uint8_t>(std::size_t{4} * kWidth * kHeight, 240)};
-  EXPECT_GE(FindSphereMismatches(blank, LocateSpheres(state, camera, kWidth, kHeight)).size(), 13u);
+  Image blank{kSpheresWidth, kSpheresHeight,
+              std::vector<std::uint8_t>(std::size_t{4} * kSpheresWidth * kSpheresHeight, 240)};
+  EXPECT_GE(FindSphereMismatches(blank, LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight))
+                .size(),
+            13u);
 }
 
 TEST(Spheres, HaveADarkRimInTheHighClassForColourBlindViewers) {
@@ -130,14 +134,14 @@ TEST(Spheres, HaveADarkRimInTheHighClassForColourBlindViewers) {
     const SceneState state = SceneWith(Posture::kStanding, load_class);
     const Camera camera = NamedCamera("front", state);
     const Image image = renderer->Render(state, camera, PlainView(2));
-    const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
+    const auto spheres = LocateSpheres(state, camera, kSpheresWidth, kSpheresHeight);
     const SphereInPicture& knee = Find(spheres, "right_knee");
     double sum = 0;
     for (int i = 0; i < 24; ++i) {
       const double angle = 2 * M_PI * i / 24;
       const auto x = static_cast<std::size_t>(knee.x_px + 0.88 * knee.radius_px * std::cos(angle));
       const auto y = static_cast<std::size_t>(knee.y_px + 0.88 * knee.radius_px * std::sin(angle));
-      const std::size_t at = 4 * (y * kWidth + x);
+      const std::size_t at = 4 * (y * kSpheresWidth + x);
       sum += std::max({image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]});
     }
     return sum / 24;

@@ -80,5 +80,24 @@ TEST(Matte, ProcessesEveryPixelSeparately) {
   EXPECT_EQ(picture.rgba, (std::vector<std::uint8_t>{0, 0, 0, 0, 9, 8, 7, 255}));
 }
 
+TEST(Matte, IsLaidOverAPictureByItsAlphaAndTheOpacity) {
+  Image below = OnePixel({100, 100, 100});
+  Image over = OnePixel({0, 0, 0});  // left of the part
+  over.width = 2;
+  over.rgba.insert(over.rgba.end(), {200, 0, 100, 255});
+  const auto laid = [&](double opacity) {
+    Image image = below;
+    LayOver(image, over, {1, 0, 1, 1}, opacity);
+    return image.rgba;
+  };
+  EXPECT_EQ(laid(1), (std::vector<std::uint8_t>{200, 0, 100, 255}));
+  EXPECT_EQ(laid(0.25), (std::vector<std::uint8_t>{125, 75, 100, 255}));
+  EXPECT_EQ(laid(0), below.rgba);
+  over.rgba[7] = 51;  // a fifth
+  EXPECT_EQ(laid(1), (std::vector<std::uint8_t>{120, 80, 100, 255}));
+  over.rgba[7] = 0;
+  EXPECT_EQ(laid(1), below.rgba);
+}
+
 }  // namespace
 }  // namespace kinescope::render

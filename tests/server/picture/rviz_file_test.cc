@@ -374,13 +374,11 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[2].style,
             "(covariance=2,covariance_alpha=0.5,covariance_color=#cc33cc,turn_covariance=3,turn_"
             "covariance_alpha=0.25,turn_covariance_offset=2,turn_covariance_color=axes)");
-  EXPECT_EQ(picture.topics[3].name, "/eye/image_raw");
+  EXPECT_EQ(picture.topics[3].name + picture.topics[3].style, "/eye/image_raw(scene=0.5)");
   EXPECT_THAT(
       picture.remarks,
       Contains(HasSubstr("'Place': the covariance of the orientation is drawn about the axes of "
                          "the pose, not fixed ones")));
-  EXPECT_THAT(picture.remarks,
-              Contains(HasSubstr("'Eye': its picture is drawn without the scene")));
   ShownTopicsValue value;
   value.Parse("/p" + picture.topics[2].style + ",/t(linear=0.5,angular=0)");
   EXPECT_EQ((*value)[0].style.covariance.scale, 2);
@@ -388,6 +386,77 @@ Visualization Manager:
   EXPECT_TRUE((*value)[0].style.turn_covariance.has_axis_colors);
   EXPECT_EQ((*value)[1].style.wrench.force_m, 0.5);
   EXPECT_EQ((*value)[1].style.wrench.torque_m, 0);
+}
+
+TEST(RvizFile, HasTheSceneOverTheImagesOfCameras) {
+  const RvizPicture picture = ReadText(WithDisplays(
+      "    - {Class: rviz/Camera, Enabled: true, Name: Usual, Image Topic: /a/image_raw,\n"
+      "       Image Rendering: background and overlay, Overlay Alpha: 0.25, Zoom Factor: 1,\n"
+      "       Visibility: {Grid: true, Value: true, Robots: {Arm: true, Value: true}}}\n"
+      "    - {Class: rviz/Camera, Enabled: true, Name: Behind, Image Topic: /b/image_raw,\n"
+      "       Image Rendering: background, Zoom Factor: 2, Transport Hint: compressed,\n"
+      "       Visibility: {Grid: true, Plan: false, Value: true}}\n"
+      "    - {Class: rviz/Camera, Enabled: true, Name: Front, Image Topic: /c/image_raw,\n"
+      "       Image Rendering: overlay}\n"));
+  ASSERT_EQ(picture.topics.size(), 3u);
+  EXPECT_EQ(picture.topics[0].name + picture.topics[0].style, "/a/image_raw(scene=0.75)");
+  EXPECT_EQ(picture.topics[1].name + picture.topics[1].style, "/b/image_raw/compressed(scene=1)");
+  EXPECT_EQ(picture.topics[2].style, "(scene=0.5)");
+  EXPECT_THAT(picture.remarks,
+              ElementsAre(HasSubstr("'Behind': Zoom Factor is not taken"),
+                          HasSubstr("'Behind': Visibility is not taken: 'Plan'"),
+                          HasSubstr("'Front': Image Rendering 'overlay' is drawn as"),
+                          HasSubstr("current view has no Class")));
+  ShownTopicsValue value;
+  value.Parse("/a" + picture.topics[0].style);
+  EXPECT_EQ((*value)[0].style.camera.scene_opacity, 0.75);
+  EXPECT_THROW(value.Parse("/a(scene=2)"), options::BadValue);
+  EXPECT_THROW(value.Parse("/a(scene=on)"), options::BadValue);
+}
+
+TEST(RvizFile, SaysThatTheFloorIsNotOverImages) {
+  const std::string camera =
+      "    - {Class: rviz/Camera, Enabled: true, Name: Eye, Image Topic: /a/image_raw}\n";
+  const std::string grid = "    - {Class: rviz/Grid, Enabled: true}\n";
+  const auto remark = HasSubstr("'Eye': the floor is not drawn over its picture");
+  EXPECT_THAT(ReadText(WithDisplays(camera + grid)).remarks, Contains(remark));
+  EXPECT_THAT(ReadText(WithDisplays(camera)).remarks, Not(Contains(remark)));
+}
+
+TEST(RvizFile, HasCloudsOfDepths) {
+  const RvizPicture picture = ReadText(WithDisplays(
+      "    - {Class: rviz/DepthCloud, Enabled: true, Name: Plain, Depth Map Topic: /d/image,\n"
+      "       Color Image Topic: \"\", Color Transformer: AxisColor, Axis: Z, Style: Flat "
+      "Squares,\n"
+      "       Autocompute Value Bounds: {Min Value: 0, Max Value: 2, Value: false},\n"
+      "       Auto Size: {Auto Size Factor: 1, Value: true}, Size (m): 0.3}\n"
+      "    - {Class: rviz/DepthCloud, Enabled: true, Name: Coloured, Depth Map Topic: /d/image,\n"
+      "       Color Image Topic: /rgb/image, Color Transformer: AxisColor, Style: Spheres,\n"
+      "       Depth Map Transport Hint: compressedDepth, Color Transport Hint: compressed,\n"
+      "       Auto Size: {Auto Size Factor: 2, Value: true},\n"
+      "       Occlusion Compensation: {Occlusion Time-Out: 30, Value: true}}\n"
+      "    - {Class: rviz/DepthCloud, Enabled: true, Name: Sized, Depth Map Topic: /d/image,\n"
+      "       Auto Size: {Value: false}, Size (m): 0.02, Style: Boxes, Decay Time: 3}\n"
+      "    - {Class: rviz/DepthCloud, Enabled: true, Name: Bare, Depth Map Topic: \"\"}\n"));
+  ASSERT_EQ(picture.topics.size(), 3u);
+  EXPECT_EQ(picture.topics[0].name + picture.topics[0].style,
+            "/d/image(cloud=on,by=z,from=0,to=2)");
+  EXPECT_EQ(picture.topics[1].style, "(cloud=on,colors=/rgb/image,shape=spheres)");
+  EXPECT_EQ(picture.topics[2].style, "(cloud=on,shape=cubes,size=0.02,decay=3)");
+  EXPECT_THAT(
+      picture.remarks,
+      ElementsAre(HasSubstr("'Coloured': Color Transport Hint 'compressed' is read as 'raw'"),
+                  HasSubstr("'Coloured': Auto Size Factor is not taken"),
+                  HasSubstr("'Coloured': Occlusion Compensation"),
+                  HasSubstr("'Coloured': Depth Map Transport Hint 'compressedDepth' is read as"),
+                  HasSubstr("'Bare' is not drawn: it has no topic"),
+                  HasSubstr("current view has no Class")));
+  ShownTopicsValue value;
+  value.Parse("/d" + picture.topics[1].style);
+  EXPECT_TRUE((*value)[0].style.camera.is_cloud);
+  EXPECT_EQ((*value)[0].style.camera.color_topic, "/rgb/image");
+  EXPECT_THROW(value.Parse("/d(cloud=1)"), options::BadValue);
+  EXPECT_THROW(value.Parse("/d(colors=no topic)"), options::BadValue);
 }
 
 TEST(RvizFile, HasInteractiveMarkersAndSolidArrows) {

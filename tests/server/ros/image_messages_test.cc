@@ -8,12 +8,21 @@
 #include <sensor_msgs/Image.h>
 #include <std_msgs/String.h>
 
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "server/ros/calibration.h"
 #include "server/ros/image_box.h"
+#include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 template <class Message>
@@ -124,6 +133,142 @@ TEST(ImageBox, CallsCamerasAsTheirTopics) {
   EXPECT_EQ(NameOfCamera("/camera/image_raw"), "camera/image_raw");
   EXPECT_EQ(NameOfCamera("/camera/image_raw/compressed"), "camera/image_raw");
   EXPECT_EQ(NameOfCamera("/compressed"), "compressed");
+}
+
+sensor_msgs::CameraInfo SomeCalibration() {
+  sensor_msgs::CameraInfo message;
+  message.header.frame_id = "/eye";
+  message.width = 640;
+  message.height = 480;
+  message.K = {500, 0, 300, 0, 510, 200, 0, 0, 1};
+  message.P = {525, 0, 319.5, 0, 0, 520, 239.5, 0, 0, 0, 1, 0};
+  return message;
+}
+
+TEST(Calibration, IsTheProjectionOfTheImageThatIsShown) {
+  const auto calibration = ToCalibration(SomeCalibration());
+  ASSERT_TRUE(calibration) << calibration.error().text;
+  EXPECT_EQ(calibration->frame, "eye");
+  EXPECT_EQ(calibration->camera.width, 640);
+  EXPECT_EQ(calibration->camera.focal_px, (std::array<double, 2>{525, 520}));
+  EXPECT_EQ(calibration->camera.center_px, (std::array<double, 2>{319.5, 239.5}));
+  EXPECT_EQ(calibration->camera.world_from_optical.position, Eigen::Vector3d::Zero());
+  sensor_msgs::CameraInfo right = SomeCalibration();  // of a stereo pair, 12 cm beside the left one
+  right.P[3] = -0.12 * 525;
+  EXPECT_TRUE(ToCalibration(right)->camera.world_from_optical.position.isApprox(
+      Eigen::Vector3d(0.12, 0, 0)));
+  sensor_msgs::CameraInfo no_p = SomeCalibration();
+  no_p.P.assign(0);
+  EXPECT_EQ(ToCalibration(no_p)->camera.focal_px, (std::array<double, 2>{500, 510}));
+  EXPECT_EQ(ToCalibration(no_p)->camera.center_px, (std::array<double, 2>{300, 200}));
+}
+
+TEST(Calibration, ThatIsNoneIsRefused) {
+  sensor_msgs::CameraInfo message = SomeCalibration();
+  message.P[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(ToCalibration(message).error().text, "camera_info: its focal lengths are not positive");
+  message = SomeCalibration();
+  message.P[3] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(ToCalibration(message).error().text, "camera_info: its place is far away");
+  message = {};
+  EXPECT_EQ(ToCalibration(message).error().text, "camera_info: it was calibrated for 0 x 0 px");
+}
+
+TEST(Calibration, IsExpectedBesideTheImage) {
+  EXPECT_EQ(CalibrationTopicOf("/camera/image_raw"), "/camera/camera_info");
+  EXPECT_EQ(CalibrationTopicOf("/camera/image_raw/compressed"), "/camera/camera_info");
+  EXPECT_EQ(CalibrationTopicOf("/image"), "/camera_info");
+  EXPECT_EQ(CalibrationTopicOf("image"), "camera_info");
+}
+
+TEST(TopicsHeardFor, AreThoseBesideAnImageThatItNeeds) {
+  const auto names_of = [](const ShownTopic& topic) {
+    std::vector<std::string> names;
+    for (const HeardTopic& heard : TopicsHeardFor(topic)) {
+      names.push_back(heard.name + (heard.has_colors ? " (colours)" : ""));
+    }
+    return names;
+  };
+  ShownTopic topic{"/eye/image_raw"};
+  EXPECT_THAT(names_of(topic), ElementsAre("/eye/image_raw"));
+  topic.style.camera.scene_opacity = 0.5;
+  EXPECT_THAT(names_of(topic), ElementsAre("/eye/image_raw", "/eye/camera_info"));
+  topic.style.camera = {0, 0, true, "/rgb/image"};
+  EXPECT_THAT(names_of(topic),
+              ElementsAre("/eye/image_raw", "/eye/camera_info", "/rgb/image (colours)"));
+  EXPECT_THAT(names_of({"/goals/update"}), ElementsAre("/goals/update", "/goals/update_full"));
+}
+
+// Its camera is at x = 1 at the time 5 s, and at x = 2 now.
+std::optional<urdf::Pose> MovingEye(const std::string& frame, std::int64_t stamp_nanos) {
+  if (frame != "eye") return std::nullopt;
+  if (stamp_nanos != 0 && stamp_nanos != 5'000'000'000) return std::nullopt;
+  urdf::Pose pose;
+  pose.position.x() = stamp_nanos == 0 ? 2 : 1;
+  return pose;
+}
+
+CameraImage TakenAt(std::int64_t stamp_nanos) {
+  CameraImage image = *Read(SomeImage());
+  image.stamp_nanos = stamp_nanos;
+  return image;
+}
+
+TEST(ImageBox, PlacesTheCameraAtTheTimeOfItsImage) {
+  ImageBox box;
+  EXPECT_FALSE(box.Put(3, TakenAt(5'000'000'000), {0.5}));
+  box.Update(1, MovingEye);
+  EXPECT_FALSE(box.images()[0]->camera) << "no calibration yet";
+  box.PutCalibration(3, *ToCalibration(SomeCalibration()));
+  EXPECT_TRUE(box.TakeChanged());
+  box.Update(20'000'000, MovingEye);
+  ASSERT_TRUE(box.images()[0]->camera);
+  EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 1);
+  EXPECT_EQ(box.images()[0]->camera->scene_opacity, 0.5);
+  EXPECT_EQ(box.images()[0]->camera->focal_px[0], 525);
+  EXPECT_TRUE(box.TakeChanged());
+  const auto shown = box.images()[0];
+  box.Update(40'000'000, MovingEye);
+  EXPECT_EQ(box.images()[0], shown);
+  EXPECT_FALSE(box.TakeChanged());
+  // Of the next one TF does not know the time.
+  EXPECT_FALSE(box.Put(3, TakenAt(6'000'000'000), {0.5}));
+  EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 1) << "as before";
+  box.Update(60'000'000, MovingEye);
+  EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 2);
+  EXPECT_THAT(box.TakeLost(), IsEmpty());
+}
+
+TEST(ImageBox, NeedsNoCameraForAnImageWithoutTheScene) {
+  ImageBox box;
+  box.PutCalibration(0, *ToCalibration(SomeCalibration()));
+  EXPECT_FALSE(box.Put(0, TakenAt(0)));
+  box.Update(5'000'000'000, MovingEye);
+  EXPECT_FALSE(box.images()[0]->camera);
+  EXPECT_THAT(box.TakeLost(), IsEmpty());
+}
+
+TEST(ImageBox, NamesOnceTheCameraThatHasNoPlace) {
+  for (const bool has_calibration : {false, true}) {
+    ImageBox box;
+    sensor_msgs::CameraInfo message = SomeCalibration();
+    message.header.frame_id = "no\x1bwhere";
+    if (has_calibration) box.PutCalibration(7, *ToCalibration(message));
+    std::vector<ImageBox::Lost> lost;
+    for (int n = 0; n < 40; ++n) {
+      EXPECT_FALSE(box.Put(7, TakenAt(n), {1}));
+      box.Update(n * 100'000'000LL, MovingEye);
+      for (const ImageBox::Lost& each : box.TakeLost()) {
+        EXPECT_GE(n, 10) << "a second";
+        lost.push_back(each);
+      }
+    }
+    ASSERT_THAT(lost, SizeIs(1));
+    EXPECT_EQ(lost[0].topic, 7u);
+    EXPECT_THAT(lost[0].text,
+                HasSubstr(has_calibration ? "unknown frame 'no" : "no calibration on camera_info"));
+    EXPECT_EQ(lost[0].text.find('\x1b'), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "render/image/png_file.h"
@@ -33,6 +35,29 @@ sensor_msgs::Image Magenta() {
   message.step = 3 * message.width;
   message.data.resize(std::size_t{message.step} * message.height);
   for (std::size_t i = 0; i < message.data.size(); ++i) message.data[i] = i % 3 == 1 ? 0 : 255;
+  return message;
+}
+
+// Of a camera that sees 1.6 m of height 2 m ahead.
+sensor_msgs::CameraInfo InfoOfMagenta() {
+  sensor_msgs::CameraInfo info;
+  info.width = 160;
+  info.height = 120;
+  info.P = {150, 0, 79.5, 0, 0, 150, 59.5, 0, 0, 0, 1, 0};
+  return info;
+}
+
+// 2 m before the person, who is at the origin, and 1 m high; z towards the person, y down.
+tf2_msgs::TFMessage InFrontOfPerson() {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  auto& transform = message.transforms.front();
+  transform.header.frame_id = "world";
+  transform.child_frame_id = "eye";
+  transform.transform.translation.x = 2;
+  transform.transform.translation.z = 1;
+  transform.transform.rotation.x = transform.transform.rotation.y = -0.5;
+  transform.transform.rotation.z = transform.transform.rotation.w = 0.5;
   return message;
 }
 
@@ -104,6 +129,49 @@ TEST_F(CameraOverRos, IsAPictureInThePictureAndOnThePage) {
     return counters.find("states more pixels") != std::string::npos;
   })) << counters;
   EXPECT_EQ(Fetch(port, "/api/v1/image/0").status, 200) << "the last good one stays";
+}
+
+TEST_F(CameraOverRos, HasTheSceneOverItsPictureWhereItIsCalibrated) {
+  setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);
+  const auto program = Start("serve demo:n_pose --ros required --http_port 0 --marker_topics '" +
+                             std::string(kTopic) + "(scene=1)'");
+  const std::string url = WaitForLine(*program, "page at ");
+  const int port = std::stoi(url.substr(url.rfind(':') + 1));
+  ros::Publisher camera = node_->advertise<sensor_msgs::Image>(kTopic, 1);
+  ros::Publisher calibration = node_->advertise<sensor_msgs::CameraInfo>("/lab/camera_info", 1);
+  ros::Publisher frames = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  sensor_msgs::Image image = Magenta();
+  image.header.frame_id = "eye";
+  const auto publish = [&] {
+    image.header.stamp = ros::Time::now();
+    sensor_msgs::CameraInfo info = InfoOfMagenta();
+    info.header = image.header;
+    calibration.publish(info);
+    camera.publish(image);
+  };
+  std::string said;
+  EXPECT_TRUE(Spin([&] {
+    publish();
+    said = Fetch(port, "/api/v1/diagnostics").json()["ros"]["inputs"][kTopic].dump();
+    return said.find("the scene is not drawn over its pictures: unknown frame 'eye'") !=
+           std::string::npos;
+  })) << said;
+  // How much of the magenta is hidden: by its name, and by the person before the camera.
+  const auto hidden = [&]() -> std::optional<double> {
+    publish();
+    const auto snapshot = Fetch(port, "/api/v1/snapshot.png");
+    if (snapshot.status != 200) return std::nullopt;  // too soon after the one before
+    const Box box = MagentaIn(FileOf("live.png", snapshot.body));
+    return 1 - box.pixels / (1.0 * (box.right - box.left + 1) * (box.bottom - box.top + 1));
+  };
+  std::optional<double> by_name, by_both;
+  EXPECT_TRUE(Spin([&] { return (by_name = hidden()).has_value(); }));
+  frames.publish(InFrontOfPerson());
+  EXPECT_TRUE(Spin([&] {
+    by_both = hidden();
+    return by_both && *by_both > *by_name + 0.07;
+  })) << by_both.value_or(0);
+  EXPECT_LT(by_both.value_or(1), 0.7);
 }
 
 TEST_F(CameraOverRos, IsDrawnOfABag) {

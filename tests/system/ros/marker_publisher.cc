@@ -4,6 +4,7 @@
 // robot goes to another place and the markers away; with the next one, they are back. Until the end
 // of its standard input.
 #include <ros/ros.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -54,6 +55,7 @@ visualization_msgs::Marker ToMessage(const SceneMarker& marker) {
   return message;
 }
 
+constexpr char kCameraFrame[] = "lab_eye";
 constexpr char kArm[] =
     "<robot name='arm'><link name='arm_base'><visual><geometry><cylinder radius='0.08' "
     "length='0.5'/></geometry></visual></link><link name='arm_hand'><visual><geometry><box "
@@ -63,7 +65,7 @@ constexpr char kArm[] =
 
 tf2_msgs::TFMessage PlacesOfArm(double x) {
   tf2_msgs::TFMessage message;
-  message.transforms.resize(2);
+  message.transforms.resize(3);
   auto& base = message.transforms[0];
   base.header.frame_id = "world";
   base.child_frame_id = "arm_base";
@@ -77,12 +79,29 @@ tf2_msgs::TFMessage PlacesOfArm(double x) {
   hand.transform.translation.z = 0.35;
   hand.transform.rotation.x = 0.3826834;  // 45 degrees
   hand.transform.rotation.w = 0.9238795;
+  auto& camera = message.transforms[2];  // before the person: z towards them, y down
+  camera.header.frame_id = "world";
+  camera.child_frame_id = kCameraFrame;
+  camera.transform.translation.x = 2.6;
+  camera.transform.translation.z = 1;
+  camera.transform.rotation.x = camera.transform.rotation.y = -0.5;
+  camera.transform.rotation.z = camera.transform.rotation.w = 0.5;
   return message;
+}
+
+sensor_msgs::CameraInfo Calibration() {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = kCameraFrame;
+  info.width = 160;
+  info.height = 120;
+  info.P = {140, 0, 74.5, 0, 0, 140, 62.5, 0, 0, 0, 1, 0};
+  return info;
 }
 
 // Its left half is orange.
 sensor_msgs::Image Picture() {
   sensor_msgs::Image image;
+  image.header.frame_id = kCameraFrame;
   image.width = 160;
   image.height = 120;
   image.encoding = "rgb8";
@@ -103,6 +122,8 @@ int Main(int argc, char** argv) {
   places.publish(PlacesOfArm(0.2));
   const ros::Publisher camera = node.advertise<sensor_msgs::Image>("/lab/image_raw", 1, true);
   camera.publish(Picture());
+  const ros::Publisher info = node.advertise<sensor_msgs::CameraInfo>("/lab/camera_info", 1, true);
+  info.publish(Calibration());
   visualization_msgs::MarkerArray array;
   for (const SceneMarker& marker : testing::MarkersOfAllTypes("")) {
     if (marker.type != MarkerType::kMesh) array.markers.push_back(ToMessage(marker));

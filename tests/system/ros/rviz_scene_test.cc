@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <interactive_markers/interactive_marker_server.h>
 #include <nav_msgs/Path.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -98,6 +99,23 @@ constexpr char kPosesOfConfig[] =
        Head Diameter: 0.3}
 )";
 
+constexpr char kDepthsOfConfig[] =
+    R"(    - {Class: rviz/DepthCloud, Name: Depths, Enabled: true, Value: true, Alpha: 1,
+       Depth Map Topic: /eye/depth, Depth Map Transport Hint: raw, Color Image Topic: "",
+       Color Transport Hint: raw, Queue Size: 5, Topic Filter: true, Position Transformer: XYZ,
+       Color Transformer: FlatColor, Color: 230; 30; 220, Style: Flat Squares, Size (m): 0.03,
+       Auto Size: {Auto Size Factor: 1, Value: false}, Use Fixed Frame: true,
+       Occlusion Compensation: {Occlusion Time-Out: 30, Value: false}}
+)";
+
+constexpr char kCameraOfConfig[] =
+    R"(    - {Class: rviz/Camera, Name: Eye, Enabled: true, Value: true, Image Topic: /eye/image,
+       Image Rendering: background, Overlay Alpha: 0.5, Zoom Factor: 1, Queue Size: 2,
+       Transport Hint: raw, Unreliable: false, Visibility: {Value: true}}
+    - {Class: rviz/Marker, Name: Wall, Enabled: true, Value: true, Marker Topic: /wall,
+       Namespaces: {}}
+)";
+
 // Without the frames whose names follow.
 constexpr char kFramesOfConfig[] =
     R"(    - Class: rviz/TF
@@ -133,6 +151,8 @@ constexpr char kViewOfConfig[] = R"(  Enabled: true
     Saved: ~
 Window Geometry: {Height: 600, Width: 800, X: 0, Y: 0, Hide Left Dock: true, Hide Right Dock: true}
 )";
+// The pane of a camera is there.
+constexpr char kWindowWithPanes[] = "Hide Left Dock: false";
 
 // A thing of the scene: nothing else there has its tint.
 struct Thing {
@@ -162,15 +182,16 @@ struct Place {
 
 // Light differs, tint does not: the share that each channel has in the sum. Kinescope's legend, on
 // the left below, has something of each colour.
-Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels,
-              std::size_t width) {
-  constexpr std::size_t kLegendRight = 206, kLegendTop = 320;  // px
+Place PlaceOf(const Thing& thing, const std::vector<std::array<int, 3>>& pixels, std::size_t width,
+              bool has_legend = true) {
+  constexpr std::size_t kLegendTop = 320;                   // px
+  const std::size_t legend_right = has_legend ? 206u : 0u;  // px
   std::vector<double> x, y;
   const double whole = thing.color[0] + thing.color[1] + thing.color[2];
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::size_t column = i % width, row = i / width;
     const double sum = pixels[i][0] + pixels[i][1] + pixels[i][2];
-    if (sum < 60 || (column < kLegendRight && row > kLegendTop)) continue;
+    if (sum < 60 || (column < legend_right && row > kLegendTop)) continue;
     double off = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       off += std::abs(pixels[i][k] / sum - thing.color[k] / whole);
@@ -193,6 +214,10 @@ class RVizScene : public testing::RVizProgram {
     if (IsSkipped() || HasFatalFailure()) return;
     ros::param::set("/robot_description", std::string(kArmOfScene));
     joints_ = node_->advertise<sensor_msgs::JointState>("joint_states", 1, true);
+    frames_ = node_->advertise<tf2_msgs::TFMessage>("/tf", 1);
+    info_ = node_->advertise<sensor_msgs::CameraInfo>("/eye/camera_info", 1);
+    image_ = node_->advertise<sensor_msgs::Image>("/eye/image", 1);
+    depths_ = node_->advertise<sensor_msgs::Image>("/eye/depth", 1);
     PublishLatched<tf2_msgs::TFMessage>("/tf_static", WhereThingsStand());
     PublishLatched<sensor_msgs::PointCloud2>("/cloud", CloudFrom(0.3F));
     PublishLatched<sensor_msgs::PointCloud2>("/heights", CloudFrom(1.3F));
@@ -215,13 +240,13 @@ class RVizScene : public testing::RVizProgram {
   }
 
   // Starts the server, and RViz anew, with the configuration in `file`.
-  void StartBoth(const std::string& file) {
+  void StartBoth(const std::string& file, const std::string& window = "--fullscreen") {
     serve_ = Start(
         "serve demo:n_pose --ros required --http_port 0 --ros_view_size 800x600 "
         "--ros_view_rate_hz 5 --rviz '" +
         file + "'");
     WaitForParameter("/human_description");  // RViz reads it when it starts
-    rviz_ = StartRViz();
+    rviz_ = StartRViz(window);
     Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [this](const sensor_msgs::Image& image) {
       ours_.resize(kWidth * kHeight);
       if (image.data.size() != 3 * ours_.size()) return;
@@ -236,6 +261,7 @@ class RVizScene : public testing::RVizProgram {
     std::string told;
     const auto agree = [&] {
       MoveArm();
+      PublishEye();
       if (ours_.empty()) return false;
       theirs_ = Grab();
       told.clear();
@@ -255,6 +281,77 @@ class RVizScene : public testing::RVizProgram {
     fmt::print("{}", told);
   }
 
+  // What a camera at the side of the person has taken: an image of one colour, and depths of a
+  // board 1.5 m before it.
+  void PublishEye() {
+    const ros::Time now = ros::Time::now();
+    geometry_msgs::TransformStamped place = Standing("eye", 2.2, 1.2, 0.5, 0);
+    place.header.stamp = now;
+    place.transform.rotation.x = place.transform.rotation.y = -0.5;  // looks along -x
+    place.transform.rotation.z = place.transform.rotation.w = 0.5;
+    tf2_msgs::TFMessage places;
+    places.transforms = {place};
+    frames_.publish(places);
+    sensor_msgs::CameraInfo info;
+    info.header.stamp = now;
+    info.header.frame_id = "eye";
+    info.width = kEyeWidth;
+    info.height = kEyeHeight;
+    info.distortion_model = "plumb_bob";
+    info.D.assign(5, 0);
+    info.K = {kEyeFocal, 0, 70, 0, kEyeFocal, 65, 0, 0, 1};
+    info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    info.P = {kEyeFocal, 0, 70, 0, 0, kEyeFocal, 65, 0, 0, 0, 1, 0};
+    info_.publish(info);
+    sensor_msgs::Image image;
+    image.header = info.header;
+    image.width = kEyeWidth;
+    image.height = kEyeHeight;
+    image.encoding = "rgb8";
+    image.step = 3 * kEyeWidth;
+    for (std::uint32_t i = 0; i < kEyeWidth * kEyeHeight; ++i) {
+      image.data.insert(image.data.end(), {255, 0, 255});
+    }
+    image_.publish(image);
+    image.encoding = "16UC1";
+    image.step = 2 * kEyeWidth;
+    image.data.clear();
+    for (std::uint32_t i = 0; i < kEyeWidth * kEyeHeight; ++i) {
+      const std::uint32_t x = i % kEyeWidth, y = i / kEyeWidth;
+      const bool is_board = x >= 40 && x < 100 && y >= 20 && y < 70;
+      const int millimetres = is_board ? 1500 : 0;
+      image.data.push_back(static_cast<std::uint8_t>(millimetres & 255));
+      image.data.push_back(static_cast<std::uint8_t>(millimetres >> 8));
+    }
+    depths_.publish(image);
+  }
+
+  // Where `thing` is in the image of the camera, which is magenta: shares of its width and height.
+  static Place PlaceInImage(const Thing& thing, const Pixels& pixels) {
+    std::array<double, 4> image = {kWidth, 0, kHeight, 0};  // left, right, top, bottom
+    const auto place_of = [](std::size_t i) {
+      return std::pair(static_cast<double>(i % kWidth), static_cast<double>(i / kWidth));
+    };
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const auto [red, green, blue] = pixels[i];
+      if (red < 240 || green > 15 || blue < 240) continue;
+      const auto [x, y] = place_of(i);
+      image = {std::min(image[0], x), std::max(image[1], x), std::min(image[2], y),
+               std::max(image[3], y)};
+    }
+    Pixels inside = pixels;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const auto [x, y] = place_of(i);
+      if (x < image[0] || x > image[1] || y < image[2] || y > image[3]) inside[i] = {};
+    }
+    Place place = PlaceOf(thing, inside, kWidth, false);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t first = k / 2 * 2;
+      place.edges[k] = (place.edges[k] - image[first]) / (image[first + 1] - image[first]);
+    }
+    return place;
+  }
+
   void SavePictures(const std::string& scene) const {
     for (const auto& [name, pixels] :
          {std::pair("rviz", &theirs_), std::pair("kinescope", &ours_)}) {
@@ -267,6 +364,8 @@ class RVizScene : public testing::RVizProgram {
       std::ofstream(folder / fmt::format("{}_{}.ppm", scene, name), std::ios::binary) << ppm;
     }
   }
+
+  Pixels ours_, theirs_;  // the newest pictures
 
   void MoveArm() {
     sensor_msgs::JointState message;
@@ -411,10 +510,11 @@ class RVizScene : public testing::RVizProgram {
     return wall;
   }
 
-  ros::Publisher joints_;
+  static constexpr std::uint32_t kEyeWidth = 160, kEyeHeight = 120;  // px
+  static constexpr double kEyeFocal = 90;                            // px
+  ros::Publisher joints_, frames_, info_, image_, depths_;
   std::vector<ros::Publisher> latched_;
   std::unique_ptr<Process> serve_, rviz_;
-  Pixels ours_, theirs_;
 };
 
 TEST_F(RVizScene, IsShownByServeWithItsConfigurationAsRVizShowsIt) {
@@ -485,6 +585,39 @@ TEST_F(RVizScene, HasTheFramesOfTfAsRVizShowsThem) {
   StartBoth((folder_ / "view.rviz").string());
   ExpectBothToShow(kPartsOfFrames);
   SavePictures("frames");
+}
+
+TEST_F(RVizScene, HasDepthsAsRVizShowsThem) {
+  Write("view.rviz", std::string(kPersonOfConfig) + kDepthsOfConfig + kViewOfConfig);
+  StartBoth((folder_ / "view.rviz").string());
+  ExpectBothToShow({{"board", {230, 30, 220}}});
+  SavePictures("depths");
+}
+
+TEST_F(RVizScene, IsOverTheImageOfACameraAsInRViz) {
+  std::string view = kViewOfConfig;
+  const std::string hidden = "Hide Left Dock: true";
+  view.replace(view.find(hidden), hidden.size(), kWindowWithPanes);
+  Write("view.rviz", std::string(kPersonOfConfig) + kCameraOfConfig + view);
+  StartBoth((folder_ / "view.rviz").string(), "");
+  const Thing wall = {"wall", {230, 30, 20}};
+  std::string told;
+  const auto agree = [&] {
+    PublishEye();
+    if (ours_.empty()) return false;
+    theirs_ = Grab();
+    const Place a = PlaceInImage(wall, theirs_), b = PlaceInImage(wall, ours_);
+    told = fmt::format("RViz {} ({} px), Kinescope {} ({} px)\n", a.edges, a.pixels, b.edges,
+                       b.pixels);
+    bool is_same = a.pixels > 100 && b.pixels > 100;
+    for (std::size_t k = 0; k < 4; ++k) {
+      is_same = is_same && std::abs(a.edges[k] - b.edges[k]) <= 0.02;
+    }
+    return is_same;
+  };
+  EXPECT_TRUE(Spin(agree)) << told << testing::ReadFile(folder_ / "rviz.log");
+  fmt::print("{}", told);
+  SavePictures("camera");
 }
 
 }  // namespace

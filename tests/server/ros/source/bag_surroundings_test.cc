@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
@@ -68,6 +70,16 @@ tf2_msgs::TFMessage FrameAt(const std::string& frame, double x, std::int64_t nan
   return message;
 }
 
+// Of sample `n`.
+tf2_msgs::TFMessage TransformsOfSample(int n) {
+  tf2_msgs::TFMessage message;
+  const auto person =
+      testing::MakePerson(testing::MakeModel("skeleton"), testing::Posture(0.05 * n),
+                          static_cast<std::uint32_t>(n), kBegin + n * kStep);
+  FillTransforms(person, PersonNames("skeleton"), "world", TfShape::kFlat, message);
+  return message;
+}
+
 struct Recorded : RecordingSink {
   SourceCounters counters;
 };
@@ -79,12 +91,7 @@ class BagSurroundingsTest : public ::testing::Test {
     const std::string path = folder_ / "markers.bag";
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     for (int n = 0; n < 6; ++n) {
-      tf2_msgs::TFMessage message;
-      const auto person =
-          testing::MakePerson(testing::MakeModel("skeleton"), testing::Posture(0.05 * n),
-                              static_cast<std::uint32_t>(n), kBegin + n * kStep);
-      FillTransforms(person, PersonNames("skeleton"), "world", TfShape::kFlat, message);
-      bag.write("/tf", TimeOf(kBegin + n * kStep), message);
+      bag.write("/tf", TimeOf(kBegin + n * kStep), TransformsOfSample(n));
     }
     write(bag);
     bag.close();
@@ -187,6 +194,75 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   EXPECT_FLOAT_EQ(recorded.markers.back()[0]->scale.x(), 0.1F);
   EXPECT_THAT(recorded.counters.rejected,
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
+}
+
+// Of 2 x 1 px, with its calibration before it.
+void WriteImage(rosbag::Bag& bag, const std::string& frame, std::int64_t nanos) {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = frame;
+  info.header.stamp = TimeOf(nanos);
+  info.width = 2;
+  info.height = 1;
+  info.P = {2, 0, 0.5, 0, 0, 2, 0, 0, 0, 0, 1, 0};
+  bag.write("/eye/camera_info", TimeOf(nanos), info);
+  sensor_msgs::Image image;
+  image.header.frame_id = frame;
+  image.header.stamp = TimeOf(nanos);
+  image.width = 2;
+  image.height = 1;
+  image.encoding = "16UC1";
+  image.step = 4;
+  image.data = {0xe8, 3, 0xe8, 3};  // 1 m
+  bag.write("/eye/depth", TimeOf(nanos + 1), image);
+}
+
+TEST_F(BagSurroundingsTest, AreImagesWithTheirCamerasAndCloudsOfDepths) {
+  ShownTopic picture{"/eye/depth"}, cloud{"eye/depth"};
+  picture.style.camera.scene_opacity = 0.5;
+  cloud.style.camera.is_cloud = true;
+  const CapturedLog log;
+  const auto write = [](const std::string& frame) {
+    return [frame](rosbag::Bag& bag) {
+      bag.write("/tf_static", TimeOf(kBegin - 9), FrameAt("eye", 3, kBegin - 9));
+      for (int n = 0; n < 5; ++n) WriteImage(bag, frame, kBegin + n * kStep);
+    };
+  };
+  const Recorded recorded = Read(write("eye"), {{picture, cloud}, {}});
+  ASSERT_EQ(recorded.shown.images.size(), 1u);
+  const CameraImage& image = *recorded.shown.images[0];
+  EXPECT_EQ(image.name, "eye/depth");
+  ASSERT_TRUE(image.camera);
+  EXPECT_EQ(image.camera->world_from_optical.position, Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(image.camera->scene_opacity, 0.5);
+  ASSERT_EQ(recorded.shown.markers.size(), 1u);
+  const SceneMarker& points = *recorded.shown.markers[0];
+  EXPECT_EQ(points.type, MarkerType::kPoints);
+  EXPECT_EQ(points.pose.position, Eigen::Vector3d(3, 0, 0));
+  ASSERT_EQ(points.points.size(), 2u);
+  EXPECT_TRUE(points.points[0].isApprox(Eigen::Vector3d(-0.25, 0, 1), 1e-6));
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  EXPECT_THAT(log.text(), Not(HasSubstr("eye")));
+}
+
+TEST_F(BagSurroundingsTest, SayOnceThatACameraHasNoPlace) {
+  ShownTopic picture{"/eye/depth"};
+  picture.style.camera.scene_opacity = 1;
+  const CapturedLog log;
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        for (int n = 0; n < 30; ++n) {
+          WriteImage(bag, "nowhere", kBegin + n * kStep);
+          bag.write("/tf", TimeOf(kBegin + n * kStep + 2), TransformsOfSample(n + 1));
+        }
+      },
+      {{picture}, {}});
+  ASSERT_EQ(recorded.shown.images.size(), 1u);
+  EXPECT_FALSE(recorded.shown.images[0]->camera);
+  const std::string text = log.text();
+  const std::size_t at =
+      text.find("the scene is not drawn over its pictures: unknown frame 'nowhere'");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_EQ(text.find("nowhere", at + 80), std::string::npos) << text;
 }
 
 TEST_F(BagSurroundingsTest, AreMarkersWithoutTheNamespacesThatAreLeftOut) {
