@@ -193,9 +193,23 @@ TEST(Details, HaveTheCamerasAndWhetherTheyStillSend) {
   image.received_nanos = 1'000'000'000;
   state.images = {std::make_shared<const CameraImage>(image)};
   state.made_nanos = 2'400'000'000;
-  EXPECT_EQ(told(), json::parse(R"([{"name": "lab/image_raw", "is_old": false}])"));
+  EXPECT_EQ(told(), json::parse(R"([{"name": "lab/image_raw", "is_old": false, "camera": null}])"));
   state.made_nanos = 2'600'000'000;
   EXPECT_EQ(told()[0]["is_old"], true);
+}
+
+TEST(Details, HaveTheCameraWhereTheSceneIsDrawnOverItsImage) {
+  CameraImage image;
+  image.name = "lab";
+  image.camera =
+      ImageCamera{{{1, 2, 3}, {0.5, -0.5, 0.5, -0.5}}, 640, 480, {525, 520}, {319.5, 240}, 0.7};
+  SceneState state;
+  state.images = {std::make_shared<const CameraImage>(image)};
+  const json said = json::parse(DetailsJson(&state, "front", true, {}))["details"]["images"];
+  EXPECT_EQ(said[0]["camera"],
+            json::parse(R"({"width": 640, "height": 480, "focal_px": [525.0, 520.0],
+                            "center_px": [319.5, 240.0], "position": [1.0, 2.0, 3.0],
+                            "orientation": [-0.5, 0.5, -0.5, 0.5], "scene_opacity": 0.7})"));
 }
 
 TEST(Details, HaveTheRevisionOfWhatIsBesideThePeople) {
