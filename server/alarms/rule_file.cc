@@ -11,8 +11,8 @@
 
 #include "core/compression_limits.h"
 #include "core/system/errors.h"
-#include "core/system/starts_with.h"
 #include "core/system/utf8.h"
+#include "core/system/web_address.h"
 #include "core/system/words.h"
 #include "server/options/yaml_file.h"
 #include "urdf/segments.h"
@@ -182,8 +182,7 @@ class Reader {
 
   std::string Url(const YAML::Node& node) const {
     std::string url = Text(node, "webhook");
-    const bool is_web = StartsWith(url, "https://") || StartsWith(url, "http://");
-    if (!is_web || url.size() > kLongestUrl || PrintableLine(url) != url) {
+    if (!IsWebAddress(url) || url.size() > kLongestUrl || PrintableLine(url) != url) {
       Refuse(node, "webhook: expected the URL of a web server, http://... or https://...");
     }
     return url;

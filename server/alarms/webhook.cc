@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/system/check.h"
+#include "core/system/web_address.h"
 
 namespace kinescope::alarms {
 namespace {
@@ -29,14 +30,6 @@ int EndsIfStopped(void* stopped, curl_off_t, curl_off_t, curl_off_t, curl_off_t)
 }
 
 }  // namespace
-
-std::string HostOf(const std::string& url) {
-  const std::size_t host = url.find("://") == std::string::npos ? 0 : url.find("://") + 3;
-  std::string place = url.substr(host, url.find_first_of("/?#", host) - host);
-  const std::size_t user = place.rfind('@');  // name and password before it
-  if (user != std::string::npos) place.erase(0, user + 1);
-  return url.substr(0, host) + place;
-}
 
 Webhook::Webhook(Settings settings) : settings_(std::move(settings)) {
   static const CURLcode kReady = curl_global_init(CURL_GLOBAL_DEFAULT);
@@ -110,7 +103,7 @@ void Webhook::Note(const std::string& error) {
     counters_.last_error = error;
   }
   if (!is_news || !settings_.warn) return;
-  const std::string host = HostOf(settings_.url);
+  const std::string host = ServerOf(settings_.url);
   settings_.warn(error.empty() ? fmt::format("alarms: {} hears of them again", host)
                                : fmt::format("alarms: {} could not be told: {}", host, error));
 }

@@ -62,7 +62,4 @@ class Webhook {
   std::thread thread_;
 };
 
-/// Of a URL, what may be in a log: no path or query, which are often secret.
-std::string HostOf(const std::string& url);
-
 }  // namespace kinescope::alarms

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/system/scratch_folder.h"
+#include "core/system/web_address.h"
 #include "urdf/mesh_inputs.h"
 
 namespace kinescope::download {

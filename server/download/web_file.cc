@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/system/check.h"
-#include "core/system/starts_with.h"
 
 namespace kinescope::download {
 namespace {
@@ -21,19 +20,6 @@ std::string WithoutQuery(const std::string& address) {
 }
 
 }  // namespace
-
-bool IsWebAddress(const std::string& address) {
-  return StartsWith(address, "http://") || StartsWith(address, "https://");
-}
-
-std::string ServerOf(const std::string& address) {
-  const std::size_t scheme = address.find("://");
-  const std::size_t begin = scheme == std::string::npos ? 0 : scheme + 3;
-  std::string place = address.substr(begin, address.find_first_of("/?#", begin) - begin);
-  const std::size_t user = place.rfind('@');
-  if (user != std::string::npos) place.erase(0, user + 1);
-  return address.substr(0, begin) + place;
-}
 
 std::string FileNameOf(const std::string& address) {
   const std::string path = WithoutQuery(address);

@@ -9,12 +9,7 @@
 
 namespace kinescope::download {
 
-[[nodiscard]] bool IsWebAddress(const std::string& address);  // http://, https://
-
-/// "http://robot:8000" of "http://user:word@robot:8000/arm.stl?size=2".
-[[nodiscard]] std::string ServerOf(const std::string& address);
-
-/// "arm.stl" of the same; "" for one that ends with a slash.
+/// "arm.stl" of "http://robot:8000/arm.stl?size=2"; "" for one that ends with a slash.
 [[nodiscard]] std::string FileNameOf(const std::string& address);
 
 struct WebLimits {

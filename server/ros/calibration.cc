@@ -2,22 +2,14 @@
 
 #include <ros/message_traits.h>
 
-#include <algorithm>
-#include <limits>
+#include <array>
 
 #include "core/scene_marker.h"
 #include "server/ros/image_box.h"
+#include "server/ros/image_messages.h"
 #include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
-namespace {
-
-int CalibratedSide(std::uint32_t px) {
-  return static_cast<int>(
-      std::min(px, static_cast<std::uint32_t>(std::numeric_limits<int>::max())));
-}
-
-}  // namespace
 
 bool IsCalibrationType(const std::string& md5sum) {
   return md5sum == ros::message_traits::md5sum<sensor_msgs::CameraInfo>();
@@ -27,8 +19,8 @@ Taken<Calibration> ToCalibration(const sensor_msgs::CameraInfo& message) {
   Calibration calibration;
   calibration.frame = WithoutSlash(message.header.frame_id);
   ImageCamera& camera = calibration.camera;
-  camera.width = CalibratedSide(message.width);
-  camera.height = CalibratedSide(message.height);
+  camera.width = Side(message.width);
+  camera.height = Side(message.height);
   const bool has_p = message.P[0] != 0;
   camera.focal_px = has_p ? std::array<double, 2>{message.P[0], message.P[5]}
                           : std::array<double, 2>{message.K[0], message.K[4]};
@@ -44,6 +36,12 @@ Taken<Calibration> ToCalibration(const sensor_msgs::CameraInfo& message) {
   if (!(beside.cwiseAbs().maxCoeff() < kFarthestMarker)) return refuse("its place is far away");
   camera.world_from_optical.position = beside;
   return calibration;
+}
+
+Taken<Calibration> ReadCalibration(const std::vector<std::uint8_t>& bytes) {
+  sensor_msgs::CameraInfo info;
+  if (!ReadBounded(bytes.data(), bytes.size(), info)) return tl::unexpected(Unreadable());
+  return ToCalibration(info);
 }
 
 std::string CalibrationTopicOf(const std::string& image_topic) {

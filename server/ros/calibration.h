@@ -4,7 +4,9 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/camera_image.h"
 #include "server/ros/force_input.h"
@@ -21,6 +23,8 @@ struct Calibration {
 
 /// Of a message whose P is not set, by K, which is the same for an image without distortion.
 Taken<Calibration> ToCalibration(const sensor_msgs::CameraInfo& message);
+/// The same, of a serialised message.
+Taken<Calibration> ReadCalibration(const std::vector<std::uint8_t>& bytes);
 
 /// Where image_transport expects the calibration of an image: "/camera/camera_info" for
 /// "/camera/image_raw", and for its transport "/camera/image_raw/compressed".

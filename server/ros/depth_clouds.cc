@@ -21,15 +21,18 @@ std::uint32_t Swapped(std::uint32_t value, std::size_t bytes) {
   return bytes == 2 ? (value >> 8 & 0xff) | (value & 0xff) << 8 : __builtin_bswap32(value);
 }
 
+const std::uint8_t* PixelAt(const CameraImage& image, const PixelFormat& format, int x, int y) {
+  return image.bytes->data() + image.begin + static_cast<std::size_t>(y) * image.row_bytes +
+         static_cast<std::size_t>(x) * format.bytes;
+}
+
 // m; NaN or not positive: none.
 class Depths {
  public:
   Depths(const CameraImage& image, const PixelFormat& format) : image_(image), format_(format) {}
 
   float At(int x, int y) const {
-    const std::uint8_t* const pixel = image_.bytes->data() + image_.begin +
-                                      static_cast<std::size_t>(y) * image_.row_bytes +
-                                      static_cast<std::size_t>(x) * format_.bytes;
+    const std::uint8_t* const pixel = PixelAt(image_, format_, x, y);
     std::uint32_t bits = 0;
     std::memcpy(&bits, pixel, format_.bytes);  // of a little-endian machine
     if (image_.is_bigendian) bits = Swapped(bits, format_.bytes);
@@ -45,9 +48,7 @@ class Depths {
 };
 
 std::uint32_t ColorAt(const CameraImage& image, const PixelFormat& format, int x, int y) {
-  const std::uint8_t* const pixel = image.bytes->data() + image.begin +
-                                    static_cast<std::size_t>(y) * image.row_bytes +
-                                    static_cast<std::size_t>(x) * format.bytes;
+  const std::uint8_t* const pixel = PixelAt(image, format, x, y);
   const auto part = [&](std::size_t i) {
     return std::uint32_t{pixel[format.kind == PixelFormat::Kind::kRgb ? format.rgb[i] : 0]};
   };

@@ -19,11 +19,6 @@ namespace {
 std::string Md5OfImage() { return ros::message_traits::md5sum<sensor_msgs::Image>(); }
 std::string Md5OfFile() { return ros::message_traits::md5sum<sensor_msgs::CompressedImage>(); }
 
-int Side(std::uint32_t px) {
-  return static_cast<int>(
-      std::min(px, static_cast<std::uint32_t>(std::numeric_limits<int>::max())));
-}
-
 // The members before the pixels, and where those are, as the messages have them.
 void ReadMembers(bool is_file, BoundedStream& stream, CameraImage& image) {
   std_msgs::Header header;
@@ -77,6 +72,11 @@ const char* TakeFile(CameraImage& image) {
 }
 
 }  // namespace
+
+int Side(std::uint32_t px) {
+  return static_cast<int>(
+      std::min(px, static_cast<std::uint32_t>(std::numeric_limits<int>::max())));
+}
 
 bool IsImageType(const std::string& md5sum) {
   return md5sum == Md5OfImage() || md5sum == Md5OfFile();

@@ -12,6 +12,9 @@
 
 namespace kinescope::ros_bridge {
 
+/// A width or height of a message, which may be larger than an int.
+[[nodiscard]] int Side(std::uint32_t px);
+
 [[nodiscard]] bool IsImageType(const std::string& md5sum);
 
 /// Of a serialised message of such a type; its name is left to the caller. @pre IsImageType(md5sum)

@@ -121,9 +121,7 @@ void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
 }
 
 void MarkerInbox::TakeCalibration(std::size_t topic, const std::vector<std::uint8_t>& bytes) {
-  sensor_msgs::CameraInfo info;
-  if (!ReadBounded(bytes.data(), bytes.size(), info)) return Refuse(topic, Unreadable());
-  const Taken<Calibration> calibration = ToCalibration(info);
+  const Taken<Calibration> calibration = ReadCalibration(bytes);
   if (!calibration) return Refuse(topic, calibration.error());
   images_.PutCalibration(topic, *calibration);
 }

@@ -97,9 +97,7 @@ Taken<ShownMarkers> TopicMarkers::TakeDepths(std::size_t topic, const ShownStyle
                                              const std::string& md5sum,
                                              const std::vector<std::uint8_t>& bytes) {
   if (IsCalibrationType(md5sum)) {
-    sensor_msgs::CameraInfo info;
-    if (!ReadBounded(bytes.data(), bytes.size(), info)) return tl::unexpected(Unreadable());
-    const Taken<Calibration> calibration = ToCalibration(info);
+    const Taken<Calibration> calibration = ReadCalibration(bytes);
     if (!calibration) return tl::unexpected(calibration.error());
     clouds_.PutCalibration(topic, *calibration);
     return ShownMarkers{};

@@ -196,11 +196,8 @@ void BagSurroundings::TakeCalibration(std::size_t number, const BagMessage& mess
   const auto refuse = [&](const char* kind) {
     ++counters.rejected[message.connection->type + ": " + kind];
   };
-  sensor_msgs::CameraInfo info;
-  if (!IsWhole(message) || !ReadBounded(message.bytes.data(), message.bytes.size(), info)) {
-    return refuse(Unreadable().kind);
-  }
-  const Taken<Calibration> calibration = ToCalibration(info);
+  if (!IsWhole(message)) return refuse(Unreadable().kind);
+  const Taken<Calibration> calibration = ReadCalibration(message.bytes);
   if (!calibration) return refuse(calibration.error().kind);
   images_.PutCalibration(number, *calibration);
 }

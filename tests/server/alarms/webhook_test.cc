@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/web_address.h"
+
 namespace kinescope::alarms {
 namespace {
 
@@ -157,8 +159,9 @@ TEST(Webhook, AServerThatNeverAnswersDelaysNothing) {
 }
 
 TEST(Webhook, NamesOfServersHaveNoSecrets) {
-  EXPECT_EQ(HostOf("https://me:word@chat.example:8443/hooks/abc?x=1"), "https://chat.example:8443");
-  EXPECT_EQ(HostOf("http://chat.example"), "http://chat.example");
+  EXPECT_EQ(ServerOf("https://me:word@chat.example:8443/hooks/abc?x=1"),
+            "https://chat.example:8443");
+  EXPECT_EQ(ServerOf("http://chat.example"), "http://chat.example");
 }
 
 }  // namespace

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/web_address.h"
+
 namespace kinescope::download {
 namespace {
 
