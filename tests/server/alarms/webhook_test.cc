@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/system/web_address.h"
+#include "tests/web_listener.h"
 
 namespace kinescope::alarms {
 namespace {
@@ -27,25 +28,7 @@ using ::testing::HasSubstr;
 // Answers each request with the next of its statuses, and the last one again and again.
 class WebServer {
  public:
-  explicit WebServer(std::vector<int> statuses) : statuses_(std::move(statuses)) {
-    socket_ = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const any = reinterpret_cast<sockaddr*>(&address);
-    if (bind(socket_, any, size) != 0 || listen(socket_, 8) != 0) ADD_FAILURE() << "no socket";
-    getsockname(socket_, any, &size);
-    url_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port)) + "/secret?key=1";
-    thread_ = std::thread([this] { Serve(); });
-  }
-  ~WebServer() {
-    shutdown(socket_, SHUT_RDWR);
-    thread_.join();
-    close(socket_);
-  }
-  WebServer(const WebServer&) = delete;
-  WebServer& operator=(const WebServer&) = delete;
+  explicit WebServer(std::vector<int> statuses) : statuses_(std::move(statuses)) {}
 
   const std::string& url() const { return url_; }
   std::vector<std::string> bodies() const {
@@ -54,15 +37,6 @@ class WebServer {
   }
 
  private:
-  void Serve() {
-    for (std::size_t i = 0;; ++i) {
-      const int client = accept(socket_, nullptr, nullptr);
-      if (client < 0) return;
-      Answer(client, statuses_[std::min(i, statuses_.size() - 1)]);
-      close(client);
-    }
-  }
-
   void Answer(int client, int status) {
     std::string request;
     char buffer[4096];
@@ -81,11 +55,12 @@ class WebServer {
   }
 
   const std::vector<int> statuses_;
-  int socket_ = -1;
-  std::string url_;
+  std::size_t next_ = 0;
   mutable std::mutex mutex_;
   std::vector<std::string> bodies_;  // guarded by mutex_
-  std::thread thread_;
+  testing::WebListener listener_{
+      [this](int client) { Answer(client, statuses_[std::min(next_++, statuses_.size() - 1)]); }};
+  const std::string url_ = listener_.url() + "/secret?key=1";
 };
 
 // Until it is true, or ten seconds have passed.

@@ -1,10 +1,8 @@
 // Meshes of robots that are on a web server: loaded where it answers, and named where it does not.
 #include "server/download/robot_meshes.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,11 +12,11 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/system/web_address.h"
+#include "tests/web_listener.h"
 
 namespace kinescope::download {
 namespace {
@@ -35,40 +33,15 @@ std::string Answered(const std::string& body, const std::string& head = "HTTP/1.
 // Answers each path with its bytes, and others with 404.
 class WebServer {
  public:
-  explicit WebServer(std::map<std::string, std::string> answers) : answers_(std::move(answers)) {
-    socket_ = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const any = reinterpret_cast<sockaddr*>(&address);
-    if (bind(socket_, any, size) != 0 || listen(socket_, 8) != 0) ADD_FAILURE() << "no socket";
-    getsockname(socket_, any, &size);
-    url_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
-    thread_ = std::thread([this] { Serve(); });
-  }
-  ~WebServer() {
-    shutdown(socket_, SHUT_RDWR);
-    thread_.join();
-    close(socket_);
-  }
-  WebServer(const WebServer&) = delete;
-  WebServer& operator=(const WebServer&) = delete;
+  explicit WebServer(std::map<std::string, std::string> answers) : answers_(std::move(answers)) {}
 
-  const std::string& url() const { return url_; }
+  const std::string& url() const { return listener_.url(); }
   std::vector<std::string> asked() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return asked_;
   }
 
  private:
-  void Serve() {
-    for (int client = -1; (client = accept(socket_, nullptr, nullptr)) >= 0; close(client)) {
-      while (Answer(client)) {
-      }
-    }
-  }
-
   // False: the connection is to end.
   bool Answer(int client) {
     std::string request;
@@ -97,11 +70,12 @@ class WebServer {
   }
 
   const std::map<std::string, std::string> answers_;
-  int socket_ = -1;
-  std::string url_;
   mutable std::mutex mutex_;
   std::vector<std::string> asked_;  // guarded by mutex_
-  std::thread thread_;
+  testing::WebListener listener_{[this](int client) {
+    while (Answer(client)) {
+    }
+  }};
 };
 
 urdf::RobotModel RobotWith(const std::vector<std::string>& meshes) {
