@@ -93,8 +93,10 @@ class Cluster:
             raise
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, error, *_):
         self.stop()
+        if error:
+            print((self.folder / "slurmctld.log").read_text())
 
     def start(self):
         for name in ("state", "spool"):

@@ -123,7 +123,9 @@ def run(options, folder):
             until("requeue", lambda: array.state(1) == "PENDING BeginTime")
         assert study.results()[requeued]["state"] == "interrupted", study.results()[requeued]
         study.let_go(requeued)
-        cluster.tell("scontrol", "update", f"JobId={array.task(1)}", "StartTime=now")
+        # Not at once: slurmd refuses a job that starts again in the second in which it was taken back ("credential revoked"), and it is
+        # lost. By itself Slurm waits two minutes.
+        cluster.tell("scontrol", "update", f"JobId={array.task(1)}", "StartTime=now+1")
 
         # Signal 9: Slurm does not requeue it.
         with study.meet(killed):
