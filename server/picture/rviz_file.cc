@@ -365,10 +365,8 @@ class RvizReader {
       const bool is_part = std::find(std::begin(kMarkerParts), std::end(kMarkerParts), name) !=
                            std::end(kMarkerParts);
       if (is_part || BoolOf(namespaces, name, true)) continue;
-      if (name.empty() || name.find_first_of("|,()=") != std::string::npos) {
+      if (!rviz::AddHidden(name, names)) {
         Remark(display, called + ": the namespace " + Quoted(name) + " is not left out");
-      } else {
-        names += (names.empty() ? "" : "|") + name;
       }
     }
     return names.empty() ? names : "(without=" + names + ")";

@@ -25,6 +25,7 @@ struct ShownProperties {
 };
 constexpr char kNone[] = "";  // no property has this name
 constexpr char kDepthDisplay[] = "rviz/DepthCloud";
+constexpr char kEffortDisplay[] = "rviz/Effort";
 constexpr ShownProperties OfPoints(const char* kind) {
   return {kind, nullptr, {"Size (m)"}, "Style", "Points", "Flat Squares"};
 }
@@ -49,7 +50,8 @@ constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/Range", "Color"},
     {"rviz/WrenchStamped", "Force Color"},
     {"rviz/TwistStamped", "Linear Color"},
-    {"rviz/AccelStamped", "Linear Color"}};
+    {"rviz/AccelStamped", "Linear Color"},
+    {kEffortDisplay}};
 
 // Displays of two vectors, and what they call them.
 struct ArrowProperties {
@@ -90,6 +92,21 @@ class StyleReader {
   }
 
   TopicStyle Read() {
+    if (kind_ == kEffortDisplay) {
+      AddEffort();
+    } else {
+      AddLook();
+    }
+    NameUntaken();
+    if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
+    return std::move(style_);
+  }
+
+ private:
+  void Add(const std::string& item) { style_.text += (style_.text.empty() ? "" : ",") + item; }
+  void Remark(const std::string& what) { style_.remarks.push_back(what); }
+
+  void AddLook() {
     if (kind_ == kDepthDisplay) AddDepths();
     AddColor();
     if (Member(properties_, "Alpha").IsDefined()) {
@@ -103,14 +120,30 @@ class StyleReader {
     }
     AddCovariance();
     AddEarlier();
-    NameUntaken();
-    if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
-    return std::move(style_);
   }
 
- private:
-  void Add(const std::string& item) { style_.text += (style_.text.empty() ? "" : ",") + item; }
-  void Remark(const std::string& what) { style_.remarks.push_back(what); }
+  // RViz does not use its Alpha.
+  void AddEffort() {
+    const auto number = [&](const char* property, double usual) {
+      return options::NumberText(
+          NumberOf(display_, property, usual, kSmallestShown, kLargestShown));
+    };
+    Add("size=" + number("Scale", 1));
+    Add("width=" + number("Width", 0.02));
+    if (NumberOf(display_, "History Length", 1, 1, 1e5) > 1) {
+      Remark("History Length: the newest efforts alone are drawn");
+    }
+    const YAML::Node joints = Member(display_, "Joints");
+    if (!joints.IsDefined() || !joints.IsMap()) return;
+    std::string names;
+    for (const auto& each : joints) {
+      if (!each.first.IsScalar() || !each.second.IsMap()) continue;
+      if (BoolOf(each.second, "Value", true)) continue;
+      const std::string name = each.first.as<std::string>();
+      if (!AddHidden(name, names)) Remark("the ring of the joint '" + name + "' is not left out");
+    }
+    if (!names.empty()) Add("without=" + names);
+  }
 
   // Of an image of depths.
   void AddDepths() {

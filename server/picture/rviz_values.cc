@@ -96,6 +96,12 @@ std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const
   return levels ? levels : ParseHex(*text);
 }
 
+bool AddHidden(const std::string& name, std::string& names) {
+  if (name.empty() || name.find_first_of("|,()=") != std::string::npos) return false;
+  names += (names.empty() ? "" : "|") + name;
+  return true;
+}
+
 int LineOf(const YAML::Node& node) { return node.Mark().line + 1; }
 
 }  // namespace kinescope::app::rviz

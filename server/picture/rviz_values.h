@@ -26,6 +26,9 @@ Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name);
 /// "r; g; b", each from 0 to 255, or #rrggbb; nullopt: neither.
 std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise);
 
+/// Adds a name to those of "(without=a|b)" of --marker_topics, "a|b"; false: it cannot stand there.
+[[nodiscard]] bool AddHidden(const std::string& name, std::string& names);
+
 /// From 1.
 int LineOf(const YAML::Node& node);
 

@@ -176,8 +176,9 @@ class Bridge : public RosBridge {
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
-    if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
+    // Robots first: their links may be frames of markers.
     if (robots_in_) robots_in_->Deliver(MonotonicNanos(), is_stale_ ? 0 : shown_stamp_nanos_, sink);
+    if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
   }
 
   void Publish(const SceneState& state) override {
@@ -243,7 +244,7 @@ class Bridge : public RosBridge {
     const GraphView& shown = config_.shown;
     if (shown.topics.empty() && shown.camera_frame.empty()) return nullptr;
     return std::make_shared<MarkerInbox>(shown.topics, shown.camera_frame, config_.reference_frame,
-                                         transforms_);
+                                         transforms_, robots_in_);
   }
 
   std::shared_ptr<RobotInbox> MakeRobotInbox() const {
@@ -463,8 +464,8 @@ class Bridge : public RosBridge {
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
   std::vector<std::string> marks_in_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
-  const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
   const std::shared_ptr<RobotInbox> robots_in_ = MakeRobotInbox();         // null: no robots
+  const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
   MasterRegistration registration_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;

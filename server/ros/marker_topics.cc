@@ -48,10 +48,12 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
 }  // namespace
 
 MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
-                         std::string reference_frame, std::shared_ptr<const TfTree> tf)
+                         std::string reference_frame, std::shared_ptr<const TfTree> tf,
+                         std::shared_ptr<const RobotInbox> robots)
     : topics_(Resolved(std::move(topics))),
       reference_frame_(std::move(reference_frame)),
       tf_(std::move(tf)),
+      robots_(std::move(robots)),
       camera_frame_(std::move(camera_frame)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
@@ -176,8 +178,14 @@ std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
     const auto found = FindFrame(frame, stamp_nanos, reference_frame_, body.model, body.now, *tf_);
     if (found) return found->pose;
   }
-  if (bodies_.empty()) return tf_->Find(reference_frame_, frame, stamp_nanos);
-  return std::nullopt;
+  if (bodies_.empty()) {
+    if (const auto found = tf_->Find(reference_frame_, frame, stamp_nanos)) return found;
+  }
+  return FindChainedOf(Robots(), frame);
+}
+
+std::vector<const RobotFrames*> MarkerInbox::Robots() const {
+  return robots_ ? robots_->Frames() : std::vector<const RobotFrames*>();
 }
 
 bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {

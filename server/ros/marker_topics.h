@@ -25,6 +25,7 @@
 #include "server/ros/image_box.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/robot_inbox.h"
 #include "server/ros/shown_frames.h"
 #include "server/ros/topic_markers.h"
 
@@ -33,8 +34,9 @@ namespace kinescope::ros_bridge {
 class MarkerInbox {
  public:
   /// At most kMostShownTopics. @throws UsageError with an invalid name. @pre InitRos was called.
+  /// @param robots  whose links may be frames of markers, and whose efforts are shown; or null
   MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame, std::string reference_frame,
-              std::shared_ptr<const TfTree> tf);
+              std::shared_ptr<const TfTree> tf, std::shared_ptr<const RobotInbox> robots);
 
   const std::vector<ShownTopic>& topics() const { return topics_; }  // with their full names
 
@@ -67,15 +69,17 @@ class MarkerInbox {
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
+  std::vector<const RobotFrames*> Robots() const;
   bool UpdateFrames(std::int64_t monotonic_nanos);
 
   const std::vector<ShownTopic> topics_;
   const std::string reference_frame_;
   const std::shared_ptr<const TfTree> tf_;
+  const std::shared_ptr<const RobotInbox> robots_;
 
   // Used by the thread that reads samples only.
   MarkerStore store_;
-  TopicMarkers shown_;
+  TopicMarkers shown_{[this](const std::string& joint) { return FindJointOf(Robots(), joint); }};
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;

@@ -55,18 +55,22 @@ std::string JointStatesOf(const GraphRobot& robot) {
   return (robot.tf_prefix.empty() ? "" : "/" + robot.tf_prefix) + "/joint_states";
 }
 
-RobotFrames::RobotFrames(RobotState robot, const std::string& tf_prefix) : model_(robot.model) {
+RobotFrames::RobotFrames(RobotState robot, const std::string& tf_prefix)
+    : model_(robot.model), before_link_(tf_prefix.empty() ? "" : tf_prefix + "/") {
   std::unordered_map<std::string, std::size_t> links;
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     const std::string& name = model_->links[i].name;
     links[name] = i;
-    frames_.push_back(tf_prefix.empty() ? name : tf_prefix + "/" + name);
+    frames_.push_back(before_link_ + name);
+    links_[frames_.back()] = i;
     parents_.push_back(i);
   }
   for (const urdf::RobotJoint& joint : model_->joints) {
+    joints_.emplace(joint.name, joints_.size());
     parents_[links.at(joint.child_link)] = links.at(joint.parent_link);
     if (joint.HasPosition()) moved_joints_.insert(joint.name);
   }
+  has_frame_.assign(model_->links.size(), false);
   robot.moves = true;
   robot.bounds.setEmpty();
   robot.world_from_link.assign(model_->links.size(), Nowhere());
@@ -90,7 +94,9 @@ bool RobotFrames::Place(const FindFrame& find) {
   std::vector<Isometry3d> placed(model_->links.size(), Nowhere());
   for (std::size_t link = 0; link < placed.size(); ++link) {  // parents before children
     const std::size_t parent = parents_[link];
-    if (const std::optional<urdf::Pose> found = find(frames_[link])) {
+    const std::optional<urdf::Pose> found = find(frames_[link]);
+    has_frame_[link] = found.has_value();
+    if (found) {
       placed[link] = ToIsometry(*found);
     } else if (chained_.empty()) {
       continue;
@@ -109,6 +115,40 @@ bool RobotFrames::Place(const FindFrame& find) {
   next.problem = ProblemOf(next, frames_);
   now_ = std::make_shared<const RobotState>(std::move(next));
   return true;
+}
+
+std::optional<urdf::Pose> RobotFrames::FindChained(const std::string& frame) const {
+  const auto link = links_.find(frame);
+  if (link == links_.end() || has_frame_[link->second]) return std::nullopt;
+  const Isometry3d& world_from_link = now_->world_from_link[link->second];
+  if (!IsSomewhere(world_from_link)) return std::nullopt;
+  return urdf::Pose{world_from_link.translation(), Eigen::Quaterniond(world_from_link.linear())};
+}
+
+std::optional<ShownJoint> RobotFrames::FindJoint(const std::string& name) const {
+  const auto found = joints_.find(name);
+  if (found == joints_.end()) return std::nullopt;
+  const urdf::RobotJoint& joint = model_->joints[found->second];
+  return ShownJoint{static_cast<int>(found->second), &joint, before_link_ + joint.child_link};
+}
+
+std::optional<ShownJoint> FindJointOf(const std::vector<const RobotFrames*>& robots,
+                                      const std::string& name) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (std::optional<ShownJoint> found = robots[i]->FindJoint(name)) {
+      found->number += static_cast<int>(i * urdf::kMaxLinks);
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<urdf::Pose> FindChainedOf(const std::vector<const RobotFrames*>& robots,
+                                        const std::string& frame) {
+  for (const RobotFrames* const robot : robots) {
+    if (const auto found = robot->FindChained(frame)) return found;
+  }
+  return std::nullopt;
 }
 
 }  // namespace kinescope::ros_bridge

@@ -145,6 +145,14 @@ void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos,
   sink.OnRobots(robots);
 }
 
+std::vector<const RobotFrames*> RobotInbox::Frames() const {
+  std::vector<const RobotFrames*> all;
+  for (const Slot& slot : slots_) {
+    if (slot.frames) all.push_back(&*slot.frames);
+  }
+  return all;
+}
+
 // Frames come one after another when a robot is started: only what stays away is worth a word.
 void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
   Slot& slot = slots_[i];

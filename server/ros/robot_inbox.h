@@ -49,6 +49,9 @@ class RobotInbox {
   /// Passes the robots on if one has moved; at most sixty times a second.
   void Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos, InputSink& sink);
 
+  /// Of the robots that are shown; until the next Deliver().
+  std::vector<const RobotFrames*> Frames() const;
+
   /// By robot: "robot /robot_description". Any thread.
   std::map<std::string, InputCounters> counters() const;
 

@@ -1,6 +1,7 @@
 #include "server/ros/topic_markers.h"
 
 #include <ros/message_traits.h>
+#include <sensor_msgs/JointState.h>
 
 #include <memory>
 #include <string_view>
@@ -14,6 +15,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
+using sensor_msgs::JointState;
 using visualization_msgs::InteractiveMarkerInit;
 using visualization_msgs::InteractiveMarkerUpdate;
 
@@ -53,7 +55,8 @@ bool EndsWithUpdate(const std::string& topic) {
 }  // namespace
 
 bool TopicMarkers::IsShown(const std::string& md5sum, const ShownStyle& style) {
-  return IsInteractive(md5sum) || IsOfDepths(md5sum, style) || FindShownMessage(md5sum) != nullptr;
+  return IsInteractive(md5sum) || IsOfDepths(md5sum, style) || Is<JointState>(md5sum) ||
+         FindShownMessage(md5sum) != nullptr;
 }
 
 std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& name,
@@ -70,11 +73,12 @@ std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& 
                   : TakeInteractive<InteractiveMarkerUpdate>(servers, style, bytes, markers);
     if (EndsWithUpdate(name)) source.resize(name.size() - kUpdate.size());
   } else {
-    Taken<ShownMarkers> shown = IsOfDepths(md5sum, style) ? TakeDepths(topic, style, md5sum, bytes)
-                                                          : FindShownMessage(md5sum)(bytes, style);
+    Taken<ShownMarkers> shown = ToMarkersOf(topic, style, md5sum, bytes);
     if (!shown) return shown.error();
     if (shown->empty()) return std::nullopt;
-    if (!shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
+    // Rings go with their joints, so of earlier messages nothing is left.
+    const bool stays = !Is<JointState>(md5sum);
+    if (stays && !shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
     markers = *std::move(shown);
   }
   for (visualization_msgs::Marker& marker : markers) {
@@ -91,6 +95,16 @@ std::optional<Refusal> TopicMarkers::TakeColors(std::size_t topic, const std::st
       ReadImage(md5sum, std::make_shared<const std::vector<std::uint8_t>>(bytes));
   if (!image) return image.error();
   return clouds_.PutColors(topic, *std::move(image));
+}
+
+Taken<ShownMarkers> TopicMarkers::ToMarkersOf(std::size_t topic, const ShownStyle& style,
+                                              const std::string& md5sum,
+                                              const std::vector<std::uint8_t>& bytes) {
+  if (IsOfDepths(md5sum, style)) return TakeDepths(topic, style, md5sum, bytes);
+  if (!Is<JointState>(md5sum)) return FindShownMessage(md5sum)(bytes, style);
+  JointState joints;
+  if (!ReadBounded(bytes.data(), bytes.size(), joints)) return tl::unexpected(Unreadable());
+  return ToMarkers(joints, find_joint_, style);
 }
 
 Taken<ShownMarkers> TopicMarkers::TakeDepths(std::size_t topic, const ShownStyle& style,
@@ -121,7 +135,8 @@ std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown) {
 }
 
 std::string NamesOfShownTypes() {
-  return NamesOfShownMessages() + ", visualization_msgs/InteractiveMarkerUpdate";
+  return NamesOfShownMessages() +
+         ", sensor_msgs/JointState, visualization_msgs/InteractiveMarkerUpdate";
 }
 
 }  // namespace kinescope::ros_bridge

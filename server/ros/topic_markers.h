@@ -7,11 +7,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/graph_view.h"
 #include "server/ros/depth_clouds.h"
 #include "server/ros/earlier_messages.h"
+#include "server/ros/effort_rings.h"
 #include "server/ros/interactive_markers.h"
 #include "server/ros/shown_messages.h"
 
@@ -19,6 +21,9 @@ namespace kinescope::ros_bridge {
 
 class TopicMarkers {
  public:
+  /// @param find  the joints of robots whose efforts are shown; empty: there are none
+  explicit TopicMarkers(FindJoint find = {}) : find_joint_(std::move(find)) {}
+
   /// Whether messages of this type are shown as markers, or say how others are: of a cloud of
   /// depths, the calibration.
   static bool IsShown(const std::string& md5sum, const ShownStyle& style);
@@ -36,9 +41,13 @@ class TopicMarkers {
                                                   const std::vector<std::uint8_t>& bytes);
 
  private:
+  Taken<ShownMarkers> ToMarkersOf(std::size_t topic, const ShownStyle& style,
+                                  const std::string& md5sum,
+                                  const std::vector<std::uint8_t>& bytes);
   Taken<ShownMarkers> TakeDepths(std::size_t topic, const ShownStyle& style,
                                  const std::string& md5sum, const std::vector<std::uint8_t>& bytes);
 
+  const FindJoint find_joint_;
   MessageShelf shelf_;
   std::map<std::size_t, InteractiveMarkers> interactive_;  // by topic
   DepthClouds clouds_;

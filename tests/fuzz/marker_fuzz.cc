@@ -18,6 +18,7 @@
 #include "render/camera/image_view.h"
 #include "render/image/camera_picture.h"
 #include "server/ros/calibration.h"
+#include "server/ros/effort_rings.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/interactive_markers.h"
 #include "server/ros/marker_input.h"
@@ -63,6 +64,22 @@ template <class Message>
 void Read(const std::vector<std::uint8_t>& bytes) {
   Message message;
   Read(bytes, message);
+}
+
+// Rings of a robot that has every joint.
+void CheckEfforts(const std::vector<std::uint8_t>& bytes) {
+  sensor_msgs::JointState joints;
+  if (!Read(bytes, joints)) return;
+  urdf::RobotJoint joint;
+  joint.type = urdf::RobotJoint::Type::kRevolute;
+  joint.axis = {1, 2, 3};
+  const auto find = [&](const std::string& name) {
+    return ShownJoint{static_cast<int>(name.size()), &joint, "hand"};
+  };
+  const auto rings = ToMarkers(joints, find, ShownStyle{});
+  if (!rings) return KINESCOPE_CHECK(!rings.error().text.empty());
+  KINESCOPE_CHECK(rings->size() == 2 * joints.name.size());
+  CheckMarkers(*rings);
 }
 
 template <class Message>
@@ -175,7 +192,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     case 2: Read<tf2_msgs::TFMessage>(bytes); break;
     case 3: Read<xsens_mvn_ros_msgs::LinkStateArray>(bytes); break;
-    case 4: Read<sensor_msgs::JointState>(bytes); break;
+    case 4: CheckEfforts(bytes); break;
     case 5: Read<kinescope_ros::JointLoadArray>(bytes); break;
     case 6: CheckShown<geometry_msgs::PointStamped>(bytes); break;
     case 7: CheckShown<geometry_msgs::PoseStamped>(bytes); break;

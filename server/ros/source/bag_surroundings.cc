@@ -78,9 +78,10 @@ BagSurroundings::BagSurroundings(const GraphView& view)
 bool BagSurroundings::IsUsed(const BagConnection& connection) const {
   if (IsOne(connection) || IsArray(connection)) return true;
   const std::string topic = WithSlash(connection.topic);
-  if (HasJoints(connection)) {
-    return std::any_of(robots_.begin(), robots_.end(),
-                       [&](const Robot& robot) { return robot.joint_states == topic; });
+  if (HasJoints(connection) && std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
+        return robot.joint_states == topic;
+      })) {
+    return true;
   }
   const std::string& type = connection.md5sum;
   const auto [first, last] = heard_.equal_range(topic);
@@ -92,7 +93,7 @@ bool BagSurroundings::IsUsed(const BagConnection& connection) const {
 
 void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
-  if (HasJoints(connection)) return TakeJointStates(message, counters);
+  if (HasJoints(connection)) TakeJointStates(message, counters);
   if (IsOne(connection) || IsArray(connection)) return TakeMarkers(message, counters);
   const std::string& type = connection.md5sum;
   const auto [first, last] = heard_.equal_range(WithSlash(connection.topic));
@@ -229,6 +230,13 @@ void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_
   if (is_used) tf_.Add(message, is_static);
 }
 
+std::vector<const RobotFrames*> BagSurroundings::Frames() const {
+  std::vector<const RobotFrames*> all;
+  all.reserve(robots_.size());
+  for (const Robot& robot : robots_) all.push_back(&robot.frames);
+  return all;
+}
+
 bool BagSurroundings::PlaceRobots(std::int64_t now_nanos, const std::string& world) {
   if (placed_nanos_ && now_nanos >= *placed_nanos_ && now_nanos - *placed_nanos_ < kPlaceEveryNanos)
     return false;
@@ -250,7 +258,8 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   const auto find = [&](const std::string& frame,
                         std::int64_t stamp_nanos) -> std::optional<urdf::Pose> {
     if (frame.empty() || frame == world) return urdf::Pose{};
-    return tf_.Find(world, frame, stamp_nanos);
+    if (auto found = tf_.Find(world, frame, stamp_nanos)) return found;
+    return FindChainedOf(Frames(), frame);
   };
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);

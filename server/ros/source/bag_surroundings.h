@@ -33,6 +33,8 @@ class BagSurroundings {
  public:
   /// @throws UsageError for a frame whose axes cannot be shown
   explicit BagSurroundings(const GraphView& view);
+  BagSurroundings(const BagSurroundings&) = delete;
+  BagSurroundings& operator=(const BagSurroundings&) = delete;
 
   /// Whether its messages are used.
   bool IsUsed(const BagConnection& connection) const;
@@ -75,6 +77,7 @@ class BagSurroundings {
   /// several ways has a number each.
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
+  std::vector<const RobotFrames*> Frames() const;
   bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
 
   const std::vector<ShownTopic> shown_topics_;  // their names have slashes
@@ -85,7 +88,7 @@ class BagSurroundings {
   std::optional<std::int64_t> placed_nanos_;
   bool has_markers_ = false, has_scenes_on_images_ = false;
   MarkerStore store_;
-  TopicMarkers shown_;
+  TopicMarkers shown_{[this](const std::string& joint) { return FindJointOf(Frames(), joint); }};
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;

@@ -319,6 +319,25 @@ Visualization Manager:
   EXPECT_EQ(((*value)[2].style.scale->low), (Rgb{0, 0, 1}));
 }
 
+TEST(RvizFile, HasEffortsAsRings) {
+  const RvizPicture picture = ReadText(R"(
+Visualization Manager:
+  Displays:
+    - {Class: rviz/Effort, Enabled: true, Topic: /joint_states, Alpha: 0.5, Scale: 2, Width: 0.05, History Length: 1,
+       Robot Description: robot_description, TF Prefix: "", Joints: {All Enabled: true, lift: {Effort: 0, Max Effort: 1, Value: true},
+       turn: {Value: false}, "a|b": {Value: false}, hand: {Value: false}}}
+    - {Class: rviz/Effort, Enabled: true, Name: Arm, Topic: /arm, History Length: 5}
+)");
+  ASSERT_EQ(picture.topics.size(), 2u);
+  EXPECT_EQ(picture.topics[0].style, "(size=2,width=0.05,without=turn|hand)");
+  EXPECT_EQ(picture.topics[1].style, "(size=1,width=0.02)");
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("the ring of the joint 'a|b' is not left out")));
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("'Arm': History Length")));
+  ShownTopicsValue value;
+  value.Parse(picture.topics[0].name + picture.topics[0].style);
+  EXPECT_EQ(value->at(0).style.frames.hidden, (std::vector<std::string>{"turn", "hand"}));
+}
+
 // As human-dynamics-estimation shows what loads a person: the effort of each joint as the colour of
 // a sphere, and the forces on feet and hands.
 TEST(RvizFile, HasValuesAsSpheresAndTheArrowsOfWrenches) {

@@ -1,6 +1,6 @@
 // A scene of a lab, shown by RViz and by `kinescope serve --rviz` with the configuration that RViz
 // has saved: a robot that TF moves, point clouds, a path, a force, a value, a marker and the
-// person, from a camera that goes with a frame.
+// person, from a camera that goes with a frame; and the effort of a joint as a ring.
 #include <fmt/ranges.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
@@ -78,6 +78,8 @@ constexpr char kThingsOfConfig[] =
        Line Style: Billboards, Line Width: 0.04, Color: 20; 220; 30}
     - {Class: rviz/Marker, Name: Wall, Enabled: true, Value: true, Marker Topic: /wall,
        Namespaces: {}}
+    - {Class: rviz/Effort, Name: Efforts, Enabled: true, Value: true, Topic: /joint_states, Alpha: 1,
+       Robot Description: robot_description, Scale: 3, Width: 0.06, History Length: 1}
 )";
 
 constexpr char kPosesOfConfig[] =
@@ -159,10 +161,10 @@ struct Thing {
   const char* name;
   std::array<int, 3> color;
 };
-const std::vector<Thing> kThings = {{"base", {26, 64, 230}},   {"hand", {230, 204, 13}},
-                                    {"cloud", {230, 30, 220}}, {"heights", {0, 255, 255}},
-                                    {"effort", {255, 0, 100}}, {"push", {255, 140, 0}},
-                                    {"path", {20, 220, 30}},   {"wall", {230, 30, 20}}};
+const std::vector<Thing> kThings = {
+    {"base", {26, 64, 230}},    {"hand", {230, 204, 13}},  {"cloud", {230, 30, 220}},
+    {"heights", {0, 255, 255}}, {"effort", {255, 0, 100}}, {"push", {255, 140, 0}},
+    {"path", {20, 220, 30}},    {"wall", {230, 30, 20}},   {"ring", {64, 0, 255}}};
 const std::vector<Thing> kPartsOfFrames = {{"x axes", {255, 0, 0}},
                                            {"y axes", {0, 255, 0}},
                                            {"z axes", {0, 0, 255}},
@@ -372,6 +374,7 @@ class RVizScene : public testing::RVizProgram {
     message.header.stamp = ros::Time::now();
     message.name = {"lift"};
     message.position = {0.4};
+    message.effort = {-0.1};  // of at most 1
     joints_.publish(message);
   }
 

@@ -159,6 +159,40 @@ TEST_F(BagSurroundingsTest, AreRobotsWhereTransformsAndJointStatesHaveTheirLinks
   EXPECT_THAT(log.text(), Not(HasSubstr("no frame")));
 }
 
+// The ring goes with the link that its joint states move: TF has no frame of it. They are also
+// those of a topic that the robot does not listen to.
+TEST_F(BagSurroundingsTest, AreEffortsOfJointsOfRobots) {
+  GraphView view;
+  GraphRobot arm = Arm();
+  urdf::RobotModel model = *arm.robot.model;
+  model.joints[0].type = urdf::RobotJoint::Type::kRevolute;
+  arm.robot.model = std::make_shared<urdf::RobotModel>(std::move(model));
+  view.robots = {arm};
+  view.topics = {{"/joint_states"}, {"/measured"}};
+  view.topics[1].style.color = Rgb{0, 1, 0};
+  const CapturedLog log;
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin - 2), FrameAt("base", 3, kBegin - 2));
+        sensor_msgs::JointState joints;
+        joints.name = {"slide"};
+        joints.position = {0.5};
+        joints.effort = {1};
+        bag.write("/joint_states", TimeOf(kBegin + 2 * kStep - 2), joints);
+        joints.name = {"of_another"};
+        bag.write("/joint_states", TimeOf(kBegin + 2 * kStep - 1), joints);
+        joints.name = {"slide"};
+        bag.write("/measured", TimeOf(kBegin + 4 * kStep - 1), joints);
+      },
+      view);
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(0u, 0u, 2u, 2u, 4u, 4u));
+  const SceneMarker& ring = *recorded.markers[2].at(0);
+  EXPECT_EQ(ring.pose.position, Eigen::Vector3d(3, 0, 0));
+  EXPECT_NEAR(Eigen::AngleAxisd(ring.pose.orientation).angle(), 0.5, 1e-9);
+  EXPECT_EQ(recorded.counters.rejected.at("sensor_msgs/JointState: no such joint"), 1u);
+  EXPECT_EQ(log.text(), "");
+}
+
 TEST_F(BagSurroundingsTest, NameOnceTheLinksThatHaveNoFrame) {
   GraphView view;
   view.robots = {Arm()};
