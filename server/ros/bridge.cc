@@ -263,7 +263,7 @@ class Bridge : public RosBridge {
     wiring.on_transforms = [this](const tf2_msgs::TFMessage& message, bool is_static) {
       return transforms_->Add(message, is_static);
     };
-    wiring.markers = markers_in_;
+    wiring.markers = marker_listener_;
     wiring.robots = robots_in_;
     wiring.on_mark = [this](const std::string& text) { marks_in_.push_back(text); };
     if (!config_.with_view) return wiring;
@@ -466,6 +466,8 @@ class Bridge : public RosBridge {
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
   const std::shared_ptr<RobotInbox> robots_in_ = MakeRobotInbox();         // null: no robots
   const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
+  const std::shared_ptr<MarkerListener> marker_listener_ =
+      markers_in_ ? std::make_shared<MarkerListener>(markers_in_) : nullptr;
   MasterRegistration registration_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;

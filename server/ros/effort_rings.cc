@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/ros/point_colors.h"
+#include "server/ros/robot_frames.h"
 #include "server/ros/shown_parts.h"
 
 namespace kinescope::ros_bridge {
@@ -82,6 +83,21 @@ bool HasRing(const urdf::RobotJoint& joint, double effort, const ShownStyle& sty
 }
 
 }  // namespace
+
+void ShownJoints::Add(const std::shared_ptr<const urdf::RobotModel>& model,
+                      const std::string& tf_prefix) {
+  for (const urdf::RobotJoint& joint : model->joints) {
+    const auto number = static_cast<int>(joints_.size());
+    const std::shared_ptr<const urdf::RobotJoint> of_model(model, &joint);
+    joints_.try_emplace(joint.name,
+                        ShownJoint{number, of_model, FrameOfLink(tf_prefix, joint.child_link)});
+  }
+}
+
+std::optional<ShownJoint> ShownJoints::Find(const std::string& name) const {
+  const auto found = joints_.find(name);
+  return found == joints_.end() ? std::nullopt : std::optional<ShownJoint>(found->second);
+}
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::JointState& message, const FindJoint& find,
                               const ShownStyle& style) {

@@ -1,11 +1,13 @@
-/// Efforts of a robot's joints as rings about them: RViz's Effort. Pure functions, any thread.
+/// Efforts of a robot's joints as rings about them: RViz's Effort. Plain values and pure functions.
 #pragma once
 
 #include <sensor_msgs/JointState.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "server/ros/force_input.h"
 #include "server/ros/shown_messages.h"
@@ -15,11 +17,22 @@ namespace kinescope::ros_bridge {
 
 /// A joint of a robot that is shown.
 struct ShownJoint {
-  int number = 0;                           // of all joints of all robots that are shown
-  const urdf::RobotJoint* joint = nullptr;  // of a robot that outlives it
-  std::string frame;                        // of its child
+  int number = 0;                                 // of all joints of all robots that are shown
+  std::shared_ptr<const urdf::RobotJoint> joint;  // never null
+  std::string frame;                              // of its child
 };
-/// By its name in the URDF; nullopt: no robot that is shown has it.
+
+/// The joints of all robots that are shown. Of several with one name, the first counts.
+class ShownJoints {
+ public:
+  void Add(const std::shared_ptr<const urdf::RobotModel>& model, const std::string& tf_prefix);
+  /// By its name in the URDF; nullopt: no robot has it.
+  std::optional<ShownJoint> Find(const std::string& name) const;
+
+ private:
+  std::unordered_map<std::string, ShownJoint> joints_;
+};
+/// As ShownJoints::Find.
 using FindJoint = std::function<std::optional<ShownJoint>(const std::string& name)>;
 
 /// A ring and its head about the axis of each revolute joint, which go with its frame: they grow,

@@ -4,12 +4,12 @@
 #include <ros/subscribe_options.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
-#include "server/ros/calibration.h"
-#include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
 #include "urdf/segments.h"
 
@@ -19,7 +19,7 @@ namespace {
 // Each message may be the only one of its marker, so none should be lost while a sample is
 // processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
-constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
+constexpr std::size_t kMostWaitingPoints = 2 * kMaxPointsOfAll, kMostWaitingMessages = 4000;
 
 // The page has new markers ten times a second, and the history keeps each list of them.
 constexpr std::int64_t kFramesEveryNanos = 50'000'000;
@@ -45,6 +45,12 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   return topics;
 }
 
+std::size_t PointsIn(const DecodedMessage& message) {
+  std::size_t count = 0;
+  for (const visualization_msgs::Marker& marker : message.markers) count += marker.points.size();
+  return count;
+}
+
 }  // namespace
 
 MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
@@ -54,6 +60,10 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
       reference_frame_(std::move(reference_frame)),
       tf_(std::move(tf)),
       robots_(std::move(robots)),
+      decoder_(topics_,
+               [this](const std::string& joint) {
+                 return robots_ ? robots_->FindJoint(joint) : std::nullopt;
+               }),
       camera_frame_(std::move(camera_frame)) {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
@@ -67,75 +77,73 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
   }
 }
 
-void MarkerInbox::OnMessage(std::size_t topic, const Event& event, bool has_colors,
+void MarkerInbox::OnMessage(std::size_t topic, const MarkerDecoder::Event& event, bool has_colors,
                             std::int64_t monotonic_nanos) {
-  const RawMessage& raw = *event.getConstMessage();
-  const ros::M_string& connection = event.getConnectionHeader();
-  const auto said = [&](const char* key) {
-    const auto found = connection.find(key);
-    return found == connection.end() ? std::string() : found->second;
-  };
-  const std::string sum = said("md5sum");
-  const ShownStyle& style = topics_[topic].style;
-  if (has_colors) {
-    if (const auto refusal = shown_.TakeColors(topic, sum, raw.bytes)) Refuse(topic, *refusal);
-    return;
-  }
-  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
-  if (sum == ros::message_traits::md5sum<visualization_msgs::Marker>()) {
-    if (!Decode(raw.bytes, marker_))
-      return Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
-    return Take(topic, marker_, monotonic_nanos);
-  }
-  if (sum == ros::message_traits::md5sum<visualization_msgs::MarkerArray>()) {
-    if (!Decode(raw.bytes, array_))
-      return Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
-    for (const auto& marker : array_.markers) Take(topic, marker, monotonic_nanos);
-    return;
-  }
-  if (TopicMarkers::IsShown(sum, style)) {
-    return TakeShown(topic, sum, raw.bytes, monotonic_nanos);
-  }
-  if (IsCalibrationType(sum)) return TakeCalibration(topic, raw.bytes);
-  if (IsImageType(sum)) {
-    const auto& message = event.getConstMessage();  // which lives as long as its pixels are shown
-    std::shared_ptr<const std::vector<std::uint8_t>> bytes(&message->bytes,
-                                                           [message](const void*) {});
-    return TakeImage(topic, ReadImage(sum, std::move(bytes)), monotonic_nanos);
-  }
-  Refuse(topic,
-         {"another type",
-          fmt::format("message type {}: expected visualization_msgs/Marker, "
-                      "visualization_msgs/MarkerArray, sensor_msgs/Image, CompressedImage, {}",
-                      said("type").substr(0, kLongestMarkerType), NamesOfShownTypes())});
+  decoder_.OnMessage(topic, event, has_colors, monotonic_nanos);
+  PassOn();
 }
 
-void MarkerInbox::TakeImage(std::size_t topic, Taken<CameraImage> image,
-                            std::int64_t monotonic_nanos) {
-  if (!image) return Refuse(topic, image.error());
-  image->name = NameOfCamera(topics_[topic].name);
-  image->received_nanos = monotonic_nanos;
-  const CameraStyle& style = topics_[topic].style.camera;
-  if (const auto refusal = images_.Put(topic, *std::move(image), style)) {
-    return Refuse(topic, *refusal);
+void MarkerInbox::FinishMessages() {
+  decoder_.DecodeKept();
+  PassOn();
+}
+
+// What waits is limited: the thread that reads samples may be slower than this one.
+void MarkerInbox::PassOn() {
+  for (DecodedMessage& message : decoder_.Take()) {
+    const std::size_t points = PointsIn(message);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!decoded_.empty() && (decoded_points_ + points > kMostWaitingPoints ||
+                              decoded_.size() >= kMostWaitingMessages)) {
+      message = DecodedMessage{message.topic, message.monotonic_nanos};
+      message.refusal = Refusal{"too fast", "messages come faster than they can be shown"};
+      if (decoded_.size() >= 2 * kMostWaitingMessages) continue;
+    } else {
+      decoded_points_ += points;
+    }
+    decoded_.push_back(std::move(message));
   }
+}
+
+// Samples wait meanwhile, so the rest may have to.
+void MarkerInbox::TakeDecoded() {
+  constexpr std::int64_t kMostNanos = 1'000'000;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::move(decoded_.begin(), decoded_.end(), std::back_inserter(taken_));
+    decoded_.clear();
+  }
+  const std::int64_t began = MonotonicNanos();
+  while (!taken_.empty() && MonotonicNanos() - began < kMostNanos) {
+    const std::size_t points = PointsIn(taken_.front());
+    Take(taken_.front());
+    taken_.pop_front();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    decoded_points_ -= points;
+  }
+}
+
+void MarkerInbox::Take(DecodedMessage& message) {
+  const std::size_t topic = message.topic;
+  if (message.has_single_markers) {
+    for (const auto& marker : message.markers) Take(topic, marker, message.monotonic_nanos);
+    return;
+  }
+  const auto undrawn =
+      store_.ApplyAll(topic, message.markers, message.monotonic_nanos, topics_[topic].style);
+  if (message.refusal) return Refuse(topic, *message.refusal);
+  if (undrawn) return Refuse(topic, *undrawn);
+  if (message.calibration) return images_.PutCalibration(topic, *message.calibration);
+  if (message.image) return TakeImage(topic, *std::move(message.image));
   CountUsed(topic);
 }
 
-void MarkerInbox::TakeCalibration(std::size_t topic, const std::vector<std::uint8_t>& bytes) {
-  const Taken<Calibration> calibration = ReadCalibration(bytes);
-  if (!calibration) return Refuse(topic, calibration.error());
-  images_.PutCalibration(topic, *calibration);
-}
-
-void MarkerInbox::TakeShown(std::size_t topic, const std::string& md5sum,
-                            const std::vector<std::uint8_t>& bytes, std::int64_t monotonic_nanos) {
-  const ShownStyle& style = topics_[topic].style;
-  ShownMarkers markers;
-  const auto refused = shown_.Take(topic, topics_[topic].name, style, md5sum, bytes, markers);
-  const auto undrawn = store_.ApplyAll(topic, markers, monotonic_nanos, style);
-  if (refused || undrawn) return Refuse(topic, refused ? *refused : *undrawn);
-  if (!IsCalibrationType(md5sum)) CountUsed(topic);
+void MarkerInbox::TakeImage(std::size_t topic, CameraImage image) {
+  const CameraStyle& style = topics_[topic].style.camera;
+  if (const auto refusal = images_.Put(topic, std::move(image), style)) {
+    return Refuse(topic, *refusal);
+  }
+  CountUsed(topic);
 }
 
 void MarkerInbox::CountUsed(std::size_t topic) {
@@ -216,6 +224,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   const auto find = [this](const std::string& frame, std::int64_t stamp_nanos) {
     return Find(frame, stamp_nanos);
   };
+  TakeDecoded();
   bool changed = store_.Update(monotonic_nanos, find);
   changed = UpdateFrames(monotonic_nanos) || changed;
   if (changed) sink.OnMarkers(Together(store_.markers(), frames_));
@@ -238,17 +247,34 @@ std::map<std::string, InputCounters> MarkerInbox::counters() const {
   return counters_;
 }
 
-std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
-                                              const std::shared_ptr<MarkerInbox>& inbox) {
+MarkerListener::MarkerListener(std::shared_ptr<MarkerInbox> inbox)
+    : inbox_(std::move(inbox)), thread_([this] { Run(); }) {}
+
+MarkerListener::~MarkerListener() {
+  stops_ = true;
+  queue_.disable();  // wakes it up
+  thread_.join();
+}
+
+void MarkerListener::Run() {
+  constexpr double kAtLeastEvery = 0.1;  // s
+  while (!stops_) {
+    queue_.callAvailable(ros::WallDuration(kAtLeastEvery));
+    inbox_->FinishMessages();
+  }
+}
+
+std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, MarkerListener& listener) {
+  const std::shared_ptr<MarkerInbox>& inbox = listener.inbox();
   std::vector<ros::Subscriber> all;
   const auto subscribe = [&](std::size_t topic, const HeardTopic& heard) {
     ros::SubscribeOptions options;
-    options.initByFullCallbackType<const MarkerInbox::Event&>(
+    options.initByFullCallbackType<const MarkerDecoder::Event&>(
         heard.name, kMarkerQueue,
-        [inbox, topic, has_colors = heard.has_colors](const MarkerInbox::Event& event) {
+        [inbox, topic, has_colors = heard.has_colors](const MarkerDecoder::Event& event) {
           inbox->OnMessage(topic, event, has_colors, MonotonicNanos());
         });
-    options.callback_queue = &queue;
+    options.callback_queue = &listener.queue();
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     all.push_back(node.subscribe(options));
   };

@@ -5,16 +5,18 @@
 #pragma once
 
 #include <ros/callback_queue.h>
-#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <atomic>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/graph_view.h"
@@ -23,11 +25,10 @@
 #include "server/ros/followed_frame.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/image_box.h"
+#include "server/ros/marker_decoder.h"
 #include "server/ros/marker_input.h"
-#include "server/ros/raw_message.h"
 #include "server/ros/robot_inbox.h"
 #include "server/ros/shown_frames.h"
-#include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 
@@ -40,12 +41,16 @@ class MarkerInbox {
 
   const std::vector<ShownTopic>& topics() const { return topics_; }  // with their full names
 
+  // The following two functions are for the thread that listens to the topics.
+
+  /// @param has_colors  of HeardTopic
+  void OnMessage(std::size_t topic, const MarkerDecoder::Event& event, bool has_colors,
+                 std::int64_t monotonic_nanos);
+  /// After the messages that were there.
+  void FinishMessages();
+
   // The following functions are for the thread that reads samples.
 
-  using Event = ros::MessageEvent<const RawMessage>;
-  /// @param has_colors  of HeardTopic
-  void OnMessage(std::size_t topic, const Event& event, bool has_colors,
-                 std::int64_t monotonic_nanos);
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
   /// Passes on the markers, the pictures and the camera's frame if they have changed.
@@ -60,12 +65,12 @@ class MarkerInbox {
     BodyNow now;
   };
 
+  void PassOn();
+  void TakeDecoded();
+  void Take(DecodedMessage& message);
   void Take(std::size_t topic, const visualization_msgs::Marker& message,
             std::int64_t monotonic_nanos);
-  void TakeImage(std::size_t topic, Taken<CameraImage> image, std::int64_t monotonic_nanos);
-  void TakeCalibration(std::size_t topic, const std::vector<std::uint8_t>& bytes);
-  void TakeShown(std::size_t topic, const std::string& md5sum,
-                 const std::vector<std::uint8_t>& bytes, std::int64_t monotonic_nanos);
+  void TakeImage(std::size_t topic, CameraImage image);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
@@ -77,23 +82,44 @@ class MarkerInbox {
   const std::shared_ptr<const TfTree> tf_;
   const std::shared_ptr<const RobotInbox> robots_;
 
+  MarkerDecoder decoder_;  // used by the thread that listens only
+
   // Used by the thread that reads samples only.
+  std::deque<DecodedMessage> taken_;  // of decoded_; what there was no time for
   MarkerStore store_;
-  TopicMarkers shown_{[this](const std::string& joint) { return FindJointOf(Robots(), joint); }};
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;
-  std::map<int, Body> bodies_;             // by character
-  visualization_msgs::Marker marker_;      // reused, keeps its memory
-  visualization_msgs::MarkerArray array_;  // reused, keeps its memory
+  std::map<int, Body> bodies_;  // by character
 
   mutable std::mutex mutex_;
+  std::deque<DecodedMessage> decoded_;             // guarded by mutex_
+  std::size_t decoded_points_ = 0;                 // guarded by mutex_; in decoded_ and taken_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+};
+
+/// Calls the callbacks of an inbox on a thread of its own.
+class MarkerListener {
+ public:
+  explicit MarkerListener(std::shared_ptr<MarkerInbox> inbox);
+  ~MarkerListener();
+  MarkerListener(const MarkerListener&) = delete;
+  MarkerListener& operator=(const MarkerListener&) = delete;
+
+  const std::shared_ptr<MarkerInbox>& inbox() const { return inbox_; }
+  ros::CallbackQueue& queue() { return queue_; }
+
+ private:
+  void Run();
+
+  const std::shared_ptr<MarkerInbox> inbox_;
+  ros::CallbackQueue queue_;
+  std::atomic<bool> stops_ = false;
+  std::thread thread_;
 };
 
 /// The connections that fill an inbox; a master that was restarted needs new ones. Calls the
 /// master, so it may block.
-std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
-                                              const std::shared_ptr<MarkerInbox>& inbox);
+std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, MarkerListener& listener);
 
 }  // namespace kinescope::ros_bridge

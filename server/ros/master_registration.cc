@@ -187,7 +187,7 @@ BridgeStatus MasterRegistration::status() const {
     }
   };
   add("", first_topics_.get());
-  if (wiring_.markers) status.inputs.merge(wiring_.markers->counters());
+  if (wiring_.markers) status.inputs.merge(wiring_.markers->inbox()->counters());
   if (wiring_.robots) status.inputs.merge(wiring_.robots->counters());
   for (const auto& [character, slot] : slots_) {
     if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
@@ -373,7 +373,7 @@ void MasterRegistration::Subscribe() {
     if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just stopped
   }
   if (wiring_.markers && markers_.empty()) {
-    markers_ = SubscribeMarkers(*node_, *wiring_.queue, wiring_.markers);
+    markers_ = SubscribeMarkers(*node_, *wiring_.markers);
   }
   if (wiring_.robots && joint_states_.empty()) {
     joint_states_ = SubscribeJointStates(*node_, *wiring_.queue, wiring_.robots);

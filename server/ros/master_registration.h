@@ -57,7 +57,7 @@ struct InputWiring {
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
   /// Of other nodes; returns how many transforms it refuses.
   std::function<int(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
-  std::shared_ptr<MarkerInbox> markers;                  // null: no marker topics
+  std::shared_ptr<MarkerListener> markers;               // null: no marker topics
   std::shared_ptr<RobotInbox> robots;                    // null: no robots
   std::function<void(const std::string& text)> on_mark;  // of `~mark`
   std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)>

@@ -35,7 +35,7 @@ struct RawMessage {
 [[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
                           visualization_msgs::MarkerArray& message);
 
-inline constexpr std::size_t kLargestMessage = 16 << 20;  // bytes: 100,000 transforms
+inline constexpr std::size_t kLargestMessage = 64 << 20;  // bytes: two million points of a cloud
 
 /// Subscribes to a topic of `Message` without trusting its array sizes. To publishers and in the
 /// registration it is a `Message`.

@@ -55,18 +55,20 @@ std::string JointStatesOf(const GraphRobot& robot) {
   return (robot.tf_prefix.empty() ? "" : "/" + robot.tf_prefix) + "/joint_states";
 }
 
-RobotFrames::RobotFrames(RobotState robot, const std::string& tf_prefix)
-    : model_(robot.model), before_link_(tf_prefix.empty() ? "" : tf_prefix + "/") {
+std::string FrameOfLink(const std::string& tf_prefix, const std::string& link) {
+  return tf_prefix.empty() ? link : tf_prefix + "/" + link;
+}
+
+RobotFrames::RobotFrames(RobotState robot, const std::string& tf_prefix) : model_(robot.model) {
   std::unordered_map<std::string, std::size_t> links;
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     const std::string& name = model_->links[i].name;
     links[name] = i;
-    frames_.push_back(before_link_ + name);
+    frames_.push_back(FrameOfLink(tf_prefix, name));
     links_[frames_.back()] = i;
     parents_.push_back(i);
   }
   for (const urdf::RobotJoint& joint : model_->joints) {
-    joints_.emplace(joint.name, joints_.size());
     parents_[links.at(joint.child_link)] = links.at(joint.parent_link);
     if (joint.HasPosition()) moved_joints_.insert(joint.name);
   }
@@ -123,24 +125,6 @@ std::optional<urdf::Pose> RobotFrames::FindChained(const std::string& frame) con
   const Isometry3d& world_from_link = now_->world_from_link[link->second];
   if (!IsSomewhere(world_from_link)) return std::nullopt;
   return urdf::Pose{world_from_link.translation(), Eigen::Quaterniond(world_from_link.linear())};
-}
-
-std::optional<ShownJoint> RobotFrames::FindJoint(const std::string& name) const {
-  const auto found = joints_.find(name);
-  if (found == joints_.end()) return std::nullopt;
-  const urdf::RobotJoint& joint = model_->joints[found->second];
-  return ShownJoint{static_cast<int>(found->second), &joint, before_link_ + joint.child_link};
-}
-
-std::optional<ShownJoint> FindJointOf(const std::vector<const RobotFrames*>& robots,
-                                      const std::string& name) {
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (std::optional<ShownJoint> found = robots[i]->FindJoint(name)) {
-      found->number += static_cast<int>(i * urdf::kMaxLinks);
-      return found;
-    }
-  }
-  return std::nullopt;
 }
 
 std::optional<urdf::Pose> FindChainedOf(const std::vector<const RobotFrames*>& robots,

@@ -15,7 +15,6 @@
 
 #include "core/graph_view.h"
 #include "core/robot_state.h"
-#include "server/ros/effort_rings.h"
 #include "urdf/kinematics.h"
 #include "urdf/robot/robot_kinematics.h"
 
@@ -24,6 +23,9 @@ namespace kinescope::ros_bridge {
 /// The topic of the joint states of a robot whose URDF is a file: "/joint_states", with a TF prefix
 /// "/<prefix>/joint_states".
 std::string JointStatesOf(const GraphRobot& robot);
+
+/// "<tf_prefix>/<link>"; without a prefix "<link>".
+std::string FrameOfLink(const std::string& tf_prefix, const std::string& link);
 
 class RobotFrames {
  public:
@@ -43,30 +45,22 @@ class RobotFrames {
 
   /// The frame of a link that is chained; nullopt: it is another one.
   std::optional<urdf::Pose> FindChained(const std::string& frame) const;
-  /// nullopt: it has no joint of this name. Its number is among the joints of this robot. It lives
-  /// as long as the model.
-  std::optional<ShownJoint> FindJoint(const std::string& name) const;
 
   /// Never null; another object after each change.
   const std::shared_ptr<const RobotState>& now() const { return now_; }
 
  private:
   const std::shared_ptr<const urdf::RobotModel> model_;
-  const std::string before_link_;                        // in the name of its frame
-  std::vector<std::string> frames_;                      // of the links
-  std::unordered_map<std::string, std::size_t> links_;   // by their frames
-  std::unordered_map<std::string, std::size_t> joints_;  // by their names
-  std::vector<std::size_t> parents_;                     // of the links; of the root: itself
-  std::unordered_set<std::string> moved_joints_;         // those with a position
-  std::vector<bool> has_frame_;                          // of the links: TF has it
+  std::vector<std::string> frames_;                     // of the links
+  std::unordered_map<std::string, std::size_t> links_;  // by their frames
+  std::vector<std::size_t> parents_;                    // of the links; of the root: itself
+  std::unordered_set<std::string> moved_joints_;        // those with a position
+  std::vector<bool> has_frame_;                         // of the links: TF has it
   urdf::JointPositions positions_;
   std::vector<Eigen::Isometry3d> chained_;  // root_from_link at positions_; empty before the first
   std::shared_ptr<const RobotState> now_;
 };
 
-/// Of the first robot that has such a joint.
-std::optional<ShownJoint> FindJointOf(const std::vector<const RobotFrames*>& robots,
-                                      const std::string& name);
 /// Of the first robot that has such a link.
 std::optional<urdf::Pose> FindChainedOf(const std::vector<const RobotFrames*>& robots,
                                         const std::string& frame);

@@ -129,6 +129,7 @@ void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos,
     slots_[i].frames.emplace(std::move(robot), wanted_[i].tf_prefix);
     has_news_ = true;
   }
+  if (!loaded.empty()) ListJoints();
   RobotList robots;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     if (!slots_[i].frames) continue;
@@ -143,6 +144,20 @@ void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos,
   }
   if (!std::exchange(has_news_, false)) return;
   sink.OnRobots(robots);
+}
+
+void RobotInbox::ListJoints() {
+  ShownJoints joints;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i].frames) joints.Add(slots_[i].frames->now()->model, wanted_[i].tf_prefix);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  joints_ = std::move(joints);
+}
+
+std::optional<ShownJoint> RobotInbox::FindJoint(const std::string& name) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return joints_.Find(name);
 }
 
 std::vector<const RobotFrames*> RobotInbox::Frames() const {

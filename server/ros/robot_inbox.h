@@ -17,6 +17,7 @@
 
 #include "core/graph_view.h"
 #include "server/ros/bridge.h"
+#include "server/ros/effort_rings.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/robot_frames.h"
 #include "server/ros/robot_loader.h"
@@ -52,6 +53,9 @@ class RobotInbox {
   /// Of the robots that are shown; until the next Deliver().
   std::vector<const RobotFrames*> Frames() const;
 
+  /// Of the robots that are shown. Any thread.
+  std::optional<ShownJoint> FindJoint(const std::string& name) const;
+
   /// By robot: "robot /robot_description". Any thread.
   std::map<std::string, InputCounters> counters() const;
 
@@ -62,6 +66,7 @@ class RobotInbox {
     std::int64_t incomplete_nanos = 0;  // since then something is missing; 0: nothing is
   };
 
+  void ListJoints();
   void Warn(std::size_t i, std::int64_t monotonic_nanos);
   std::string NameOf(std::size_t i) const;
   void Refuse(std::size_t i, const std::string& kind, const std::string& text);
@@ -80,6 +85,7 @@ class RobotInbox {
   mutable std::mutex mutex_;
   std::map<std::size_t, RobotState> loaded_;       // guarded by mutex_; until taken up
   std::vector<std::optional<std::string>> texts_;  // guarded by mutex_; of the parameters
+  ShownJoints joints_;                             // guarded by mutex_; of slots_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
   std::unique_ptr<RobotLoader> loader_;  // of SetDescription(); null: it was not needed yet
 };

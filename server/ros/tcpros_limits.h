@@ -14,8 +14,8 @@ namespace kinescope::ros_bridge {
 /// Reads in a row from connections before roscpp's thread turns to its other work.
 inline constexpr int kMostTcprosReads = 256;
 
-/// Connections on which a longer message or header is announced are closed and counted
-/// (RejectedXmlRpc). Any thread.
+/// A longer message or header is read and forgotten, and counted (RejectedXmlRpc); an empty one
+/// takes its place, and the connection stays. Any thread.
 void LimitTcprosMessages(std::uint32_t most_bytes);
 
 }  // namespace kinescope::ros_bridge

@@ -70,11 +70,11 @@ void Read(const std::vector<std::uint8_t>& bytes) {
 void CheckEfforts(const std::vector<std::uint8_t>& bytes) {
   sensor_msgs::JointState joints;
   if (!Read(bytes, joints)) return;
-  urdf::RobotJoint joint;
-  joint.type = urdf::RobotJoint::Type::kRevolute;
-  joint.axis = {1, 2, 3};
+  const auto joint = std::make_shared<urdf::RobotJoint>();
+  joint->type = urdf::RobotJoint::Type::kRevolute;
+  joint->axis = {1, 2, 3};
   const auto find = [&](const std::string& name) {
-    return ShownJoint{static_cast<int>(name.size()), &joint, "hand"};
+    return ShownJoint{static_cast<int>(name.size()), joint, "hand"};
   };
   const auto rings = ToMarkers(joints, find, ShownStyle{});
   if (!rings) return KINESCOPE_CHECK(!rings.error().text.empty());

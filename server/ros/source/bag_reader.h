@@ -47,7 +47,7 @@ InputFile OpenBagFile(const std::string& path);
 /// next chunk: where this one ends, or where the header of a chunk is found.
 class BagReader {
  public:
-  static constexpr std::size_t kLargestMessage = 16 << 20;  // bytes; larger ones are not delivered
+  static constexpr std::size_t kLargestMessage = 64 << 20;  // bytes; larger ones are not delivered
   static constexpr std::size_t kMaxConnections = 65536;
 
   using IsWanted = std::function<bool(const BagConnection&)>;

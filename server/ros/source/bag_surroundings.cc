@@ -72,6 +72,7 @@ BagSurroundings::BagSurroundings(const GraphView& view)
   }
   for (const GraphRobot& robot : view.robots) {
     robots_.push_back({RobotFrames(robot.robot, robot.tf_prefix), JointStatesOf(robot)});
+    joints_.Add(robot.robot.model, robot.tf_prefix);
   }
 }
 

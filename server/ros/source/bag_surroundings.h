@@ -88,7 +88,8 @@ class BagSurroundings {
   std::optional<std::int64_t> placed_nanos_;
   bool has_markers_ = false, has_scenes_on_images_ = false;
   MarkerStore store_;
-  TopicMarkers shown_{[this](const std::string& joint) { return FindJointOf(Frames(), joint); }};
+  ShownJoints joints_;
+  TopicMarkers shown_{[this](const std::string& joint) { return joints_.Find(joint); }};
   ImageBox images_;
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;

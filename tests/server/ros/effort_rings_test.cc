@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 namespace kinescope::ros_bridge {
@@ -41,7 +42,7 @@ Taken<ShownMarkers> Show(const RobotJoint& joint, const sensor_msgs::JointState&
       state,
       [&](const std::string& name) -> std::optional<ShownJoint> {
         if (name != joint.name) return std::nullopt;
-        return ShownJoint{2, &joint, "arm/hand"};
+        return ShownJoint{2, std::make_shared<RobotJoint>(joint), "arm/hand"};
       },
       style);
 }

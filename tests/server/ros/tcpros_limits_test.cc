@@ -8,10 +8,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "server/ros/xmlrpc_limits.h"
 #include "tests/heap_in_use.h"
@@ -95,17 +98,46 @@ TEST(TcprosLimits, AFloodIsReadInParts) {
   EXPECT_EQ(messages.count(), sent);
 }
 
-TEST(TcprosLimits, AMessageThatIsTooLongIsRejectedBeforeItIsAllocated) {
+// A cloud of ten million points is lost; the topic is not.
+TEST(TcprosLimits, AMessageThatIsTooLongIsLeftOutInBoundedMemory) {
+  constexpr std::uint32_t kLong = 160'000'000;
   LimitTcprosMessages(kLimit);
   TcprosPair pair;
   kinescope::testing::LargestAllocation();
-  bool is_read = false;
-  pair.connection().read(900'000'000,
-                         [&](const auto&, const auto&, std::uint32_t, bool) { is_read = true; });
+  std::vector<std::pair<std::uint32_t, bool>> read;
+  const auto note = [&](const auto&, const auto&, std::uint32_t size, bool is_read) {
+    read.emplace_back(size, is_read);
+  };
+  pair.connection().read(kLong, [&](const ros::ConnectionPtr& connection, const auto& bytes,
+                                    std::uint32_t size, bool is_read) {
+    note(connection, bytes, size, is_read);
+    connection->read(3, note);
+  });
+  const std::string part(1 << 20, 'x');
+  for (std::size_t left = kLong; left > 0; pair.Poll()) {
+    left -= pair.Send(part.substr(0, std::min(left, part.size())));
+  }
+  EXPECT_EQ(pair.Send("new"), 3U);
+  for (int i = 0; i < 1000 && read.size() < 2; ++i) pair.Poll();
+  EXPECT_EQ(read, (std::vector<std::pair<std::uint32_t, bool>>{{0, true}, {3, true}}));
   EXPECT_LT(kinescope::testing::LargestAllocation(), kLimit);
-  EXPECT_TRUE(pair.connection().isDropped());
-  EXPECT_FALSE(is_read);
+  EXPECT_FALSE(pair.connection().isDropped());
   EXPECT_EQ(RejectedXmlRpc()["a TCPROS message of more than 16 MiB"], 1U);
+  LimitTcprosMessages(std::numeric_limits<std::uint32_t>::max());
+}
+
+TEST(TcprosLimits, APublisherThatEndsWithinAMessageIsNoMessage) {
+  LimitTcprosMessages(kLimit);
+  std::vector<bool> read;
+  {
+    TcprosPair pair;
+    pair.connection().read(900'000'000, [&](const auto&, const auto&, std::uint32_t, bool is_read) {
+      read.push_back(is_read);
+    });
+    pair.Send("part");
+    pair.Poll();
+  }
+  for (const bool is_read : read) EXPECT_FALSE(is_read);
   LimitTcprosMessages(std::numeric_limits<std::uint32_t>::max());
 }
 

@@ -1,0 +1,124 @@
+#include "server/ros/marker_decoder.h"
+
+#include <ros/message_traits.h>
+#include <sensor_msgs/JointState.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <memory>
+
+#include "server/ros/image_box.h"
+#include "server/ros/image_messages.h"
+#include "server/ros/markers.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
+
+template <class Message>
+bool Is(const std::string& md5sum) {
+  return md5sum == ros::message_traits::md5sum<Message>();
+}
+
+bool IsSingle(const std::string& md5sum) { return Is<visualization_msgs::Marker>(md5sum); }
+bool IsArray(const std::string& md5sum) { return Is<visualization_msgs::MarkerArray>(md5sum); }
+
+std::string Said(const MarkerDecoder::Event& event, const char* key) {
+  const ros::M_string& connection = event.getConnectionHeader();
+  const auto found = connection.find(key);
+  return found == connection.end() ? std::string() : found->second;
+}
+
+// Whether the newest message of the topic is all that is shown of it.
+bool ReplacesThoseBefore(const std::string& md5sum, const ShownStyle& style, bool has_colors) {
+  if (has_colors || IsImageType(md5sum)) return true;
+  const bool stays = style.earlier.keep > 1 || style.earlier.decay_secs > 0;
+  return !stays && FindShownMessage(md5sum) != nullptr;
+}
+
+}  // namespace
+
+void MarkerDecoder::Add(DecodedMessage message) { decoded_.push_back(std::move(message)); }
+
+void MarkerDecoder::OnMessage(std::size_t topic, const Event& event, bool has_colors,
+                              std::int64_t monotonic_nanos) {
+  const std::string type = Said(event, "md5sum");
+  if (ReplacesThoseBefore(type, topics_[topic].style, has_colors)) {
+    const auto [kept, is_new] = kept_.try_emplace({topic, has_colors});
+    if (!is_new) {
+      Add({topic, monotonic_nanos});
+      decoded_.back().refusal =
+          Refusal{"too fast", "messages come faster than they are shown: only the newest are"};
+    }
+    kept->second = {event, monotonic_nanos};
+    return;
+  }
+  DecodedMessage message{topic, monotonic_nanos};
+  Decode(topic, event, has_colors, message);
+  Add(std::move(message));
+}
+
+void MarkerDecoder::DecodeKept() {
+  for (const auto& [place, kept] : std::exchange(kept_, {})) {
+    DecodedMessage message{place.first, kept.monotonic_nanos};
+    Decode(place.first, kept.event, place.second, message);
+    if (!place.second || message.refusal) Add(std::move(message));
+  }
+}
+
+void MarkerDecoder::DecodeMarkers(const RawMessage& raw, bool is_array, DecodedMessage& to) {
+  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
+  if (!(is_array ? ros_bridge::Decode(raw.bytes, array_)
+                 : ros_bridge::Decode(raw.bytes, marker_))) {
+    to.refusal = {kUnreadable, "a message that " + std::string(kUnreadable)};
+    return;
+  }
+  to.has_single_markers = true;
+  if (is_array) {
+    to.markers = array_.markers;
+  } else {
+    to.markers = {marker_};
+  }
+}
+
+void MarkerDecoder::Decode(std::size_t topic, const Event& event, bool has_colors,
+                           DecodedMessage& to) {
+  const RawMessage& raw = *event.getConstMessage();
+  const std::string type = Said(event, "md5sum");
+  const ShownTopic& shown = topics_[topic];
+  if (has_colors) {
+    to.refusal = shown_.TakeColors(topic, type, raw.bytes);
+  } else if (IsSingle(type) || IsArray(type)) {
+    DecodeMarkers(raw, IsArray(type), to);
+  } else if (TopicMarkers::IsShown(type, shown.style)) {
+    to.refusal = shown_.Take(topic, shown.name, shown.style, type, raw.bytes, to.markers);
+  } else if (IsCalibrationType(type)) {
+    Taken<Calibration> calibration = ReadCalibration(raw.bytes);
+    if (calibration) {
+      to.calibration = *std::move(calibration);
+    } else {
+      to.refusal = calibration.error();
+    }
+  } else if (IsImageType(type)) {
+    const auto& message = event.getConstMessage();  // which lives as long as its pixels are shown
+    const std::shared_ptr<const std::vector<std::uint8_t>> bytes(&message->bytes,
+                                                                 [message](const void*) {});
+    Taken<CameraImage> image = ReadImage(type, bytes);
+    if (image) {
+      to.image = *std::move(image);
+      to.image->name = NameOfCamera(shown.name);
+      to.image->received_nanos = to.monotonic_nanos;
+    } else {
+      to.refusal = image.error();
+    }
+  } else {
+    to.refusal = {
+        "another type",
+        fmt::format("message type {}: expected visualization_msgs/Marker, "
+                    "visualization_msgs/MarkerArray, sensor_msgs/Image, CompressedImage, "
+                    "{}",
+                    Said(event, "type").substr(0, kLongestMarkerType), NamesOfShownTypes())};
+  }
+}
+
+}  // namespace kinescope::ros_bridge
