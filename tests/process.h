@@ -27,6 +27,8 @@ class Process {
   /// Waits for its end: the exit code, 128 + n when signal n ended it.
   int WaitForEnd();
 
+  pid_t pid() const { return pid_; }
+
  private:
   pid_t pid_ = -1;  // -1: it has ended
   int to_child_ = -1;

@@ -1,9 +1,13 @@
-// One person among thousands of hostile datagrams a second: a real master, sockets, `kinescope
-// serve`, and a subscriber that counts.
+// One person among thousands of hostile datagrams a second, and beside large clouds: a real master,
+// sockets, `kinescope serve`, and a subscriber that counts.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/String.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,8 +19,19 @@
 namespace kinescope {
 namespace {
 
+using ::testing::Each;
 using testing::Process;
 using testing::RunProgram;
+
+// In MB.
+double MostMemoryOf(int process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string word; status >> word;) {
+    double kib = 0;
+    if (word == "VmHWM:" && status >> kib) return kib / 1000;
+  }
+  return 0;
+}
 
 class Flood : public testing::RosProgram {
  protected:
@@ -57,6 +72,56 @@ TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
     missing += periods > 1.5 ? static_cast<std::size_t>(periods - 0.5) : 0;
   }
   EXPECT_LE(missing, drops) << "what was lost is counted";
+}
+
+sensor_msgs::PointCloud2 CloudOf(std::uint32_t points) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = "world";
+  cloud.height = 1;
+  cloud.width = points;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    sensor_msgs::PointField field;
+    field.name = std::string(1, "xyz"[i]);
+    field.offset = 4 * i;
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  cloud.point_step = 12;
+  cloud.row_step = cloud.point_step * points;
+  cloud.data.resize(cloud.row_step);
+  return cloud;
+}
+
+// A depth camera of two million points, as fast as it can: the newest clouds are shown, in bounded
+// memory, and one that is too large is left out alone. Nobody is stale meanwhile.
+TEST_F(Flood, OfLargeCloudsKeepsNoPersonWaiting) {
+  if (IsSkipped() || HasFatalFailure()) return;
+  ros::Publisher clouds = node_->advertise<sensor_msgs::PointCloud2>("/cloud", 1);
+  std::vector<std::string> states;
+  Hear<std_msgs::String>("/kinescope/state",
+                         [&](const auto& message) { states.push_back(message.data); });
+  std::size_t samples = 0;
+  Hear<sensor_msgs::JointState>("/kinescope/joint_states", [&](const auto&) { ++samples; });
+  const auto server =
+      Start("serve demo:lift --http_port 0 --ros required --pictures off --marker_topics /cloud");
+  const std::string page = WaitForLine(*server, "page at ");
+  ASSERT_TRUE(Spin([&] { return samples > 100 && clouds.getNumSubscribers() > 0; }));
+  const sensor_msgs::PointCloud2 cloud = CloudOf(2'000'000), beyond = CloudOf(6'000'000);
+  states.clear();
+  samples = 0;
+  nlohmann::json ros;
+  const auto input = [&] { return ros["inputs"]["/cloud"]; };
+  clouds.publish(beyond);
+  ASSERT_TRUE(Spin([&] {
+    clouds.publish(cloud);
+    if (samples < 480) return false;
+    ros = nlohmann::json::parse(
+        RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out)["ros"];
+    return input()["used"] >= 10 && !ros["rejected_calls"].empty();
+  })) << ros;
+  EXPECT_THAT(states, Each("live"));
+  EXPECT_LT(MostMemoryOf(server->pid()), 1000) << "MB";
 }
 
 }  // namespace
