@@ -229,10 +229,7 @@ class MarkerStore::FrameCache {
 bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
   const auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
   if (!frame) {
-    if (!std::exchange(entry.is_lost, true)) {
-      lost_.push_back({std::get<0>(key), fmt::format("marker {}: frame '{}' is not known yet",
-                                                     IdentityOf(*entry.shape), entry.frame)});
-    }
+    if (!std::exchange(entry.is_lost, true)) lost_.push_back(LostOf(key, entry));
     return false;  // it stays where it was, or has no place yet
   }
   entry.is_lost = false;
@@ -282,7 +279,22 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   return true;
 }
 
+MarkerStore::Lost MarkerStore::LostOf(const Key& key, const Entry& entry) {
+  return {std::get<0>(key), fmt::format("marker {}: frame '{}' is not known yet",
+                                        IdentityOf(*entry.shape), entry.frame)};
+}
+
 std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
+
+std::vector<MarkerStore::Lost> MarkerStore::Unplaced() const {
+  std::vector<Lost> all;
+  std::set<std::pair<std::size_t, std::string>> known;
+  for (const auto& [key, entry] : entries_) {
+    if (!entry.is_lost || !known.emplace(std::get<0>(key), entry.frame).second) continue;
+    all.push_back(LostOf(key, entry));
+  }
+  return all;
+}
 
 void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame) {
   if (const auto refusal = store.Apply(topic, AxesMarker(frame.name, frame.style), 0)) {

@@ -65,6 +65,8 @@ class MarkerStore {
   };
   /// Markers that lost their place, or were added without one, since the last call.
   [[nodiscard]] std::vector<Lost> TakeLost();
+  /// Those that have no place now; one for each topic and frame.
+  [[nodiscard]] std::vector<Lost> Unplaced() const;
 
  private:
   using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, id
@@ -82,6 +84,7 @@ class MarkerStore {
 
   class FrameCache;
   bool Place(const Key& key, Entry& entry, FrameCache& frames);
+  static Lost LostOf(const Key& key, const Entry& entry);
 
   std::map<Key, Entry> entries_;
   std::size_t points_ = 0;  // in all entries

@@ -3,13 +3,16 @@
 #include <ros/names.h>
 #include <ros/subscribe_options.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/utf8.h"
 #include "server/ros/markers.h"
 #include "urdf/segments.h"
 
@@ -23,6 +26,8 @@ constexpr std::size_t kMostWaitingPoints = 2 * kMaxPointsOfAll, kMostWaitingMess
 
 // The page has new markers ten times a second, and the history keeps each list of them.
 constexpr std::int64_t kFramesEveryNanos = 50'000'000;
+
+constexpr char kOfKinescope[] = "of Kinescope";
 
 std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   for (ShownTopic& topic : topics) {
@@ -156,7 +161,7 @@ void MarkerInbox::CountUsed(std::size_t topic) {
 void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
                        std::int64_t monotonic_nanos) {
   if (IsOwnMarkerNamespace(message.ns)) {
-    return Refuse(topic, {"of Kinescope", "markers of Kinescope: the scene has them already"});
+    return Refuse(topic, {kOfKinescope, "markers of Kinescope: the scene has them already"});
   }
   if (const auto refusal = store_.Apply(topic, message, monotonic_nanos, topics_[topic].style)) {
     return Refuse(topic, *refusal);
@@ -164,12 +169,38 @@ void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& mess
   CountUsed(topic);
 }
 
+// Each kind is worth a line in the log once.
 void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = counters_[topics_[topic].name];
-  ++counters.received;
-  ++counters.refused[refusal.kind];
-  counters.last_problem = refusal.text;
+  bool is_first = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    InputCounters& counters = counters_[topics_[topic].name];
+    ++counters.received;
+    is_first = ++counters.refused[refusal.kind] == 1;
+    counters.last_problem = refusal.text;
+  }
+  if (is_first && std::string_view(refusal.kind) != kOfKinescope) {
+    spdlog::warn("{}: {} (the next ones are counted: ros.inputs of /api/v1/diagnostics)",
+                 topics_[topic].name, PrintableLine(refusal.text));
+  }
+}
+
+// A frame may come a little later than what stands in it.
+void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
+  constexpr std::int64_t kEveryNanos = 5'000'000'000;
+  constexpr std::size_t kMost = 20;
+  if (monotonic_nanos - looked_nanos_ < kEveryNanos) return;
+  looked_nanos_ = monotonic_nanos;
+  std::set<std::string> unplaced;
+  for (const MarkerStore::Lost& lost : store_.Unplaced()) {
+    unplaced.insert(topics_[lost.topic].name + ": " + lost.text);
+  }
+  for (const std::string& text : unplaced) {
+    const bool was_unplaced = unplaced_.count(text) != 0;
+    if (!was_unplaced || warned_.size() >= kMost || !warned_.insert(text).second) continue;
+    spdlog::warn("{}; it is not shown", PrintableLine(text));
+  }
+  unplaced_ = std::move(unplaced);
 }
 
 void MarkerInbox::SetPerson(const PersonState& person, double floor_z) {
@@ -239,6 +270,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
     counters.last_problem = text;
   };
   for (const MarkerStore::Lost& lost : store_.TakeLost()) note(lost.topic, lost.text);
+  WarnOfUnplaced(monotonic_nanos);
   for (const ImageBox::Lost& lost : images_.TakeLost()) note(lost.topic, lost.text);
 }
 

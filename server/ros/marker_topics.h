@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -73,6 +74,7 @@ class MarkerInbox {
   void TakeImage(std::size_t topic, CameraImage image);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
+  void WarnOfUnplaced(std::int64_t monotonic_nanos);
   std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
   std::vector<const RobotFrames*> Robots() const;
   bool UpdateFrames(std::int64_t monotonic_nanos);
@@ -91,6 +93,8 @@ class MarkerInbox {
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;
   std::map<int, Body> bodies_;  // by character
+  std::int64_t looked_nanos_ = 0;
+  std::set<std::string> unplaced_, warned_;  // texts: when it looked last; of the log
 
   mutable std::mutex mutex_;
   std::deque<DecodedMessage> decoded_;             // guarded by mutex_

@@ -1,6 +1,7 @@
 #include "server/ros/master_client.h"
 
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
@@ -111,6 +112,26 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
     client_.reset();
   problem_ = reply.problem;
   return reply;
+}
+
+std::optional<NodeServer> FindNodeServer(const std::string& node,
+                                         std::chrono::milliseconds timeout) {
+  XmlRpcValue name;
+  name[0] = node;
+  MasterReply found = MasterClient().Call("lookupNode", name, timeout);
+  if (found.code != MasterReply::Code::kGood) return std::nullopt;
+  std::string host;
+  std::uint32_t port = 0;
+  if (found.value.getType() != XmlRpcValue::TypeString) return std::nullopt;
+  if (!ros::network::splitURI(found.value, host, port) || port > 65535) return std::nullopt;
+  return NodeServer{host, static_cast<int>(port)};
+}
+
+bool DoesNodeAnswer(const std::string& node, std::chrono::milliseconds timeout) {
+  const std::optional<NodeServer> server = FindNodeServer(node, timeout);
+  if (!server) return false;
+  MasterClient client(server->host, server->port);
+  return client.Call("getPid", XmlRpcValue(), timeout).code == MasterReply::Code::kGood;
 }
 
 }  // namespace kinescope::ros_bridge

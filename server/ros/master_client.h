@@ -81,4 +81,16 @@ class MasterClient {
   std::string problem_;
 };
 
+/// Where the server of a node is.
+struct NodeServer {
+  std::string host;
+  int port = 0;
+};
+/// As the master knows it, whether or not the node still runs; nullopt: it does not.
+std::optional<NodeServer> FindNodeServer(const std::string& node,
+                                         std::chrono::milliseconds timeout = kMasterPatience);
+
+/// Whether a node of this name runs. One that was killed stays in the master's lists.
+bool DoesNodeAnswer(const std::string& node, std::chrono::milliseconds timeout = kMasterPatience);
+
 }  // namespace kinescope::ros_bridge

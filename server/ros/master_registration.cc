@@ -255,6 +255,7 @@ void MasterRegistration::RegisterRegularly() {
     was_registered_ = true;
     SetParameters();
     ReadRobots();
+    WarnOfMissingTopics();
   } while (WaitForNext());
 }
 
@@ -374,6 +375,7 @@ void MasterRegistration::Subscribe() {
   }
   if (wiring_.markers && markers_.empty()) {
     markers_ = SubscribeMarkers(*node_, *wiring_.markers);
+    markers_since_nanos_ = MonotonicNanos();
   }
   if (wiring_.robots && joint_states_.empty()) {
     joint_states_ = SubscribeJointStates(*node_, *wiring_.queue, wiring_.robots);
@@ -418,6 +420,24 @@ void MasterRegistration::ReadRobots() {
     wiring_.robots->SetDescription(
         i, is_text ? std::optional(static_cast<std::string&>(set.value)) : std::nullopt);
   }
+}
+
+// Once: a name may be mistyped.
+void MasterRegistration::WarnOfMissingTopics() {
+  constexpr std::int64_t kPatienceNanos = 5'000'000'000;
+  if (!wiring_.markers || has_looked_for_topics_) return;
+  if (markers_.empty() || MonotonicNanos() - markers_since_nanos_ < kPatienceNanos) return;
+  has_looked_for_topics_ = true;
+  std::set<std::string> missing;
+  for (const ShownTopic& shown : wiring_.markers->inbox()->topics()) {
+    const bool is_missing = std::any_of(markers_.begin(), markers_.end(), [&](const auto& heard) {
+      return heard.getTopic() == shown.name && heard.getNumPublishers() == 0;
+    });
+    if (is_missing && !shown.is_frame) missing.insert(shown.name);
+  }
+  if (missing.empty()) return;
+  spdlog::warn("nobody publishes {} (--marker_topics); what comes later is shown",
+               fmt::join(missing, ", "));
 }
 
 ros::Subscriber MasterRegistration::SubscribeMarks() {

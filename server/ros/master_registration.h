@@ -120,6 +120,7 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   void ReadRobots();
+  void WarnOfMissingTopics();
   void OfferOrders();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
@@ -173,11 +174,13 @@ class MasterRegistration {
   std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
-  std::vector<ros::Subscriber> joint_states_;         // registered at this master
-  std::int64_t robots_due_nanos_ = 0;                 // monotonic clock
-  std::optional<ros::Subscriber> marks_;              // registered at this master
-  std::unique_ptr<OrderServices> orders_;             // null until a master has answered
-  bool orders_are_offered_ = false;                   // at this master
+  std::int64_t markers_since_nanos_ = 0;
+  bool has_looked_for_topics_ = false;
+  std::vector<ros::Subscriber> joint_states_;             // registered at this master
+  std::int64_t robots_due_nanos_ = 0;                     // monotonic clock
+  std::optional<ros::Subscriber> marks_;                  // registered at this master
+  std::unique_ptr<OrderServices> orders_;                 // null until a master has answered
+  bool orders_are_offered_ = false;                       // at this master
   std::map<std::string, std::string> description_names_;  // by prefix, at this master
   std::map<std::string, Description> described_;          // by name of the parameter
   std::set<std::string> twins_;    // nodes with the same frames, of which it was warned

@@ -1,6 +1,5 @@
 #include "server/ros/node_time.h"
 
-#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <spdlog/spdlog.h>
@@ -84,14 +83,9 @@ class Line {
  private:
   // The first answer also has the time that the connection takes: it is not a measurement.
   bool Connect() {
-    XmlRpcValue name;
-    name[0] = node_;
-    MasterReply found = MasterClient().Call("lookupNode", name, kPatience);
-    if (found.code != MasterReply::Code::kGood) return false;
-    std::string host;
-    std::uint32_t port = 0;
-    if (!ros::network::splitURI(found.value, host, port) || port > 65535) return false;
-    client_ = std::make_unique<MasterClient>(host, static_cast<int>(port), Connection::kKept);
+    const std::optional<NodeServer> server = FindNodeServer(node_, kPatience);
+    if (!server) return false;
+    client_ = std::make_unique<MasterClient>(server->host, server->port, Connection::kKept);
     client_->Call(kMethod, XmlRpcValue(), kPatience);
     return true;
   }

@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "core/system/words.h"
 #include "server/download/robot_meshes.h"
 #include "server/ros/raw_message.h"
@@ -59,6 +60,7 @@ void RobotInbox::Refuse(std::size_t i, const std::string& kind, const std::strin
 }
 
 void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>& urdf) {
+  if (!urdf) WarnOfMissing(i);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (texts_[i] == urdf) return;
@@ -94,6 +96,19 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
     });
   }
   loader_->Load(i, std::move(robot));
+}
+
+void RobotInbox::WarnOfMissing(std::size_t i) {
+  const std::int64_t now = MonotonicNanos();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    InputCounters& counters = counters_[NameOf(i)];
+    if (counters.received > 0 || !counters.last_problem.empty()) return;
+    const auto [missed, is_new] = missed_.try_emplace(i, now);
+    if (is_new || now - missed->second < kPatienceNanos) return;
+    counters.last_problem = "the parameter is not set";
+  }
+  spdlog::warn("{}: the parameter is not set; the robot is shown as soon as it is", ParameterOf(i));
 }
 
 void RobotInbox::TakeUp(std::size_t i, RobotState robot) {

@@ -67,6 +67,7 @@ class RobotInbox {
   };
 
   void ListJoints();
+  void WarnOfMissing(std::size_t i);
   void Warn(std::size_t i, std::int64_t monotonic_nanos);
   std::string NameOf(std::size_t i) const;
   void Refuse(std::size_t i, const std::string& kind, const std::string& text);
@@ -85,6 +86,7 @@ class RobotInbox {
   mutable std::mutex mutex_;
   std::map<std::size_t, RobotState> loaded_;       // guarded by mutex_; until taken up
   std::vector<std::optional<std::string>> texts_;  // guarded by mutex_; of the parameters
+  std::map<std::size_t, std::int64_t> missed_;     // guarded by mutex_; since when; monotonic clock
   ShownJoints joints_;                             // guarded by mutex_; of slots_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
   std::unique_ptr<RobotLoader> loader_;  // of SetDescription(); null: it was not needed yet

@@ -157,7 +157,7 @@ std::variant<fs::path, MeshNotFound> FindMesh(const std::string& uri, const Mesh
     const auto folder = FindPackage(name, search);
     if (folder) return Existing(*folder / PercentDecoded(rest.substr(slash + 1)));
     return MeshNotFound{"package '" + name + "' was not found in " + List(search.package_path) +
-                        " or around the URDF; add its folder with --package_path"};
+                        " or around the URDF; add its folder to ROS_PACKAGE_PATH"};
   }
   if (const auto loaded = search.loaded.find(uri); loaded != search.loaded.end()) {
     return loaded->second;

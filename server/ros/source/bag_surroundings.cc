@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/system/utf8.h"
 #include "server/ros/calibration.h"
 #include "server/ros/image_messages.h"
 #include "server/ros/markers.h"
@@ -50,6 +51,11 @@ std::vector<ShownTopic> WithSlashes(const std::vector<ShownTopic>& topics) {
 }
 
 bool IsWhole(const BagMessage& message) { return message.bytes.size() == message.size; }
+
+Refusal TooLong(const BagMessage& message) {
+  return {"more than 64 MiB",
+          fmt::format("a message of {} MB; at most 64 MiB are read", message.size / 1'000'000)};
+}
 
 }  // namespace
 
@@ -94,6 +100,7 @@ bool BagSurroundings::IsUsed(const BagConnection& connection) const {
 
 void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
+  heard_topics_.insert(WithSlash(connection.topic));
   if (HasJoints(connection)) TakeJointStates(message, counters);
   if (IsOne(connection) || IsArray(connection)) return TakeMarkers(message, counters);
   const std::string& type = connection.md5sum;
@@ -117,7 +124,7 @@ void BagSurroundings::Take(const BagMessage& message, SourceCounters& counters) 
 
 // Into array_. Why it cannot be used, or null.
 const char* BagSurroundings::Decode(const BagMessage& message) {
-  if (!IsWhole(message)) return "markers of more than 16 MiB";
+  if (!IsWhole(message)) return "markers of more than 64 MiB";
   if (IsArray(*message.connection)) {
     return kinescope::ros_bridge::Decode(message.bytes, array_) ? nullptr : kUnreadableMarkers;
   }
@@ -162,45 +169,44 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
   if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
 }
 
+void BagSurroundings::Reject(const BagMessage& message, const Refusal& refusal,
+                             SourceCounters& counters) {
+  ++counters.rejected[message.connection->type + ": " + refusal.kind];
+  if (rejected_.size() >= kMostWarnings) return;
+  rejected_.insert(
+      fmt::format("{}: not shown: {}", WithSlash(message.connection->topic), refusal.text));
+}
+
 void BagSurroundings::TakeShown(const ShownTopic& topic, std::size_t number,
                                 const BagMessage& message, SourceCounters& counters) {
-  if (!IsWhole(message)) {
-    ++counters.rejected["messages of more than 16 MiB"];
-    return;
-  }
+  if (!IsWhole(message)) return Reject(message, TooLong(message), counters);
   has_markers_ = true;
   ShownMarkers markers;
   const auto refused = shown_.Take(number, topic.name, topic.style, message.connection->md5sum,
                                    message.bytes, markers);
   const auto undrawn = store_.ApplyAll(number, markers, message.recorded_nanos, topic.style);
-  if (refused || undrawn) {
-    ++counters.rejected[message.connection->type + ": " + (refused ? refused : undrawn)->kind];
-  }
+  if (refused || undrawn) Reject(message, refused ? *refused : *undrawn, counters);
 }
 
 void BagSurroundings::TakeImage(const ShownTopic& topic, std::size_t number,
                                 const BagMessage& message, SourceCounters& counters) {
   const BagConnection& connection = *message.connection;
-  const auto refuse = [&](const char* kind) { ++counters.rejected[connection.type + ": " + kind]; };
-  if (!IsWhole(message)) return refuse("more than 16 MiB");
+  if (!IsWhole(message)) return Reject(message, TooLong(message), counters);
   Taken<CameraImage> image = ReadImage(
       connection.md5sum, std::make_shared<const std::vector<std::uint8_t>>(message.bytes));
-  if (!image) return refuse(image.error().kind);
+  if (!image) return Reject(message, image.error(), counters);
   image->name = NameOfCamera(topic.name);
   const CameraStyle& style = topic.style.camera;
   has_scenes_on_images_ = has_scenes_on_images_ || style.scene_opacity > 0;
   const auto refusal = images_.Put(number, *std::move(image), style);
-  if (refusal) refuse(refusal->kind);
+  if (refusal) Reject(message, *refusal, counters);
 }
 
 void BagSurroundings::TakeCalibration(std::size_t number, const BagMessage& message,
                                       SourceCounters& counters) {
-  const auto refuse = [&](const char* kind) {
-    ++counters.rejected[message.connection->type + ": " + kind];
-  };
-  if (!IsWhole(message)) return refuse(Unreadable().kind);
+  if (!IsWhole(message)) return Reject(message, TooLong(message), counters);
   const Taken<Calibration> calibration = ReadCalibration(message.bytes);
-  if (!calibration) return refuse(calibration.error().kind);
+  if (!calibration) return Reject(message, calibration.error(), counters);
   images_.PutCalibration(number, *calibration);
 }
 
@@ -209,8 +215,8 @@ void BagSurroundings::TakeColors(std::size_t number, const BagMessage& message,
   const BagConnection& connection = *message.connection;
   const auto refusal = IsWhole(message)
                            ? shown_.TakeColors(number, connection.md5sum, message.bytes)
-                           : std::optional<Refusal>(Refusal{"more than 16 MiB", ""});
-  if (refusal) ++counters.rejected[connection.type + ": " + refusal->kind];
+                           : std::optional<Refusal>(TooLong(message));
+  if (refusal) Reject(message, *refusal, counters);
 }
 
 void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters& counters) {
@@ -284,7 +290,6 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(text).second) return;
     spdlog::warn("bag '{}': {}", bag, text);
   };
-  for (const MarkerStore::Lost& lost : store_.TakeLost()) warn(lost.text + "; it is not shown");
   for (const ImageBox::Lost& lost : images_.TakeLost()) warn(lost.text);
   if (!frames_) return;
   const std::string lost = frames_->TakeLost();
@@ -294,13 +299,26 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
 void BagSurroundings::WarnOfProblems(const std::string& bag) const {
   static std::mutex mutex;
   static std::set<std::string> told;  // guarded by mutex
-  for (const Robot& robot : robots_) {
-    const std::string& problem = robot.frames.now()->problem;
-    if (problem.empty()) continue;
-    const std::string line = fmt::format("bag '{}': {}", bag, problem);
+  const auto warn = [&](const std::string& text) {
+    const std::string line = fmt::format("bag '{}': {}", bag, PrintableLine(text));
     const std::lock_guard<std::mutex> lock(mutex);
     if (told.insert(line).second) spdlog::warn("{}", line);
+  };
+  for (const Robot& robot : robots_) {
+    const std::string& problem = robot.frames.now()->problem;
+    if (!problem.empty()) warn(problem);
   }
+  for (const std::string& text : rejected_) warn(text);
+  std::size_t count = 0;
+  for (const MarkerStore::Lost& lost : store_.Unplaced()) {
+    if (++count <= kMostWarnings) warn(lost.text + "; it is not shown");
+  }
+  std::set<std::string> silent;
+  for (const ShownTopic& topic : shown_topics_) {
+    if (heard_topics_.count(topic.name) == 0) silent.insert(topic.name);
+  }
+  if (silent.empty()) return;
+  warn(fmt::format("no message that can be shown up to here on {}", fmt::join(silent, ", ")));
 }
 
 }  // namespace kinescope::ros_bridge

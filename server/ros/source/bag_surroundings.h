@@ -51,6 +51,7 @@ class BagSurroundings {
 
   /// Says which links of robots are nowhere; once per program, although a bag is read for a clip
   /// twice, and again in every round of --loop.
+  /// And what was not shown of the topics that are named.
   void WarnOfProblems(const std::string& bag) const;
 
  private:
@@ -75,6 +76,8 @@ class BagSurroundings {
   void TakeJointStates(const BagMessage& message, SourceCounters& counters);
   /// The number of a topic; nullopt, counted: there are too many. What is shown of one topic in
   /// several ways has a number each.
+  /// Counts what is not shown of a topic, and remembers why.
+  void Reject(const BagMessage& message, const Refusal& refusal, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
   std::vector<const RobotFrames*> Frames() const;
@@ -96,6 +99,8 @@ class BagSurroundings {
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;  // their numbers
   std::set<std::string> lost_frames_;          // that were warned of
+  std::set<std::string> heard_topics_;         // those that a message came on
+  std::set<std::string> rejected_;             // "/cloud: <why>"
   visualization_msgs::Marker marker_;
   visualization_msgs::MarkerArray array_;
 };

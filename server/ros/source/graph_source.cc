@@ -1,7 +1,6 @@
 #include "server/ros/source/graph_source.h"
 
 #include <ros/names.h>
-#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/time.h>
 
@@ -51,17 +50,7 @@ std::string ToTopic(const std::string& url) {
 // The master shuts down a node with this node's name as soon as this node registers: probably the
 // one to subscribe to.
 void RefuseNameOfAnother(const std::string& url) {
-  XmlRpc::XmlRpcValue name;
-  name[0] = ros::this_node::getName();
-  MasterReply other = MasterClient().Call("lookupNode", name);
-  if (other.code != MasterReply::Code::kGood) return;
-  std::string host;
-  std::uint32_t port = 0;
-  const bool has_address = other.value.getType() == XmlRpc::XmlRpcValue::TypeString &&
-                           ros::network::splitURI(other.value, host, port);
-  if (!has_address) return;
-  MasterClient node(host, static_cast<int>(port));
-  if (node.Call("getPid", XmlRpc::XmlRpcValue()).code != MasterReply::Code::kGood) return;
+  if (!DoesNodeAnswer(ros::this_node::getName())) return;
   throw SourceError("source '" + url + "': another running node is already named " +
                     ros::this_node::getName() + "; start this one with __name:=kinescope_view");
 }

@@ -216,10 +216,11 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   };
   EXPECT_THAT(CountsOf(Read(write)), ElementsAre(0, 0, 0, 0, 0, 0));
   GraphView view;
-  view.topics = {{"goal"}};
+  view.topics = {{"goal"}, {"/gaol"}};
   view.topics[0].style.color = Rgb{0, 0.5, 1};
   view.topics[0].style.alpha = 0.5;
   view.topics[0].style.size_m = 0.05;
+  const CapturedLog log;
   const Recorded recorded = Read(write, view);
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_EQ(recorded.markers.back()[0]->pose.position.x(), 2);
@@ -228,6 +229,8 @@ TEST_F(BagSurroundingsTest, AreMessagesOfTopicsThatAreNamed) {
   EXPECT_FLOAT_EQ(recorded.markers.back()[0]->scale.x(), 0.1F);
   EXPECT_THAT(recorded.counters.rejected,
               ElementsAre(Pair(HasSubstr("geometry_msgs/PointStamped: "), 1)));
+  EXPECT_THAT(log.text(), HasSubstr("/goal: not shown: marker goal/0: its position is not finite"));
+  EXPECT_THAT(log.text(), HasSubstr("no message that can be shown up to here on /gaol"));
 }
 
 // Of 2 x 1 px, with its calibration before it.
