@@ -92,10 +92,12 @@ inline constexpr std::size_t kUsualCloudPoints = 20'000, kMostCloudPoints = 100'
 /// How a message that is shown as a marker looks, where it is not as by default
 /// (server/ros/shown_messages.h).
 struct ShownStyle {
-  std::optional<Rgb> color;      // of all of it, in place of colours of its own
-  std::optional<double> alpha;   // 0..1
-  std::optional<double> size_m;  // of a point, the width of a line, the length of an arrow, the
-                                 // radius of a sphere
+  std::optional<Rgb> color;       // of all of it, in place of colours of its own
+  std::optional<double> alpha;    // 0..1
+  std::optional<double> size_m;   // of a point, the width of a line, the length of an arrow, the
+                                  // radius of a sphere
+  std::optional<double> size_px;  // of points that are squares, in pixels of the picture, whatever
+                                  // their distance; in place of `size_m`
   /// Of axes, their diameter. Of a wrench RViz's "Arrow Width", of which a tenth is the diameter of
   /// the shaft; unset: as arrows of ground reaction forces.
   std::optional<double> width_m;

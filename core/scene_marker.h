@@ -50,6 +50,7 @@ struct SceneMarker {
   std::string mesh_uri;                 // package://, file:// or an absolute path
   bool mesh_has_own_colors = false;     // use colours of the file, where it has any, instead of
                                         // `color`
+  bool is_in_pixels = false;            // of kPoints: scale is in pixels of the picture, not in m
 };
 
 /// Of the axes, arrows and names of all frames of TF, which need no legend.

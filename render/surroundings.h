@@ -20,10 +20,12 @@ class SurroundingsWriter {
 
   /// World, metres, in the axes of GLB. Its nodes are named "markers" and "robot NAME". Of a robot
   /// that moves, the node has `extras` with `robot`, its number among these, and below it a node
-  /// for each link, in the frame of the link, with `link`, its number in LinksToDraw(). A text is a
-  /// node "label" with `extras`: `text`, `height` of a capital in m (0: a note of fixed size),
-  /// `color` (sRGB) and `opacity`. The `extras` of the scene have `problems`: what is not shown as
-  /// it should be, one line each. @pre each robot has a model
+  /// for each link, in the frame of the link, with `link`, its number in LinksToDraw(). The points
+  /// of a marker are a node "points" with `extras`: `size`, width and height of their squares, in m
+  /// or, with `in_pixels`, in pixels of the page. A text is a node "label" with `extras`: `text`,
+  /// `height` of a capital in m (0: a note of fixed size), `color` (sRGB) and `opacity`. The
+  /// `extras` of the scene have `problems`: what is not shown as it should be, one line each.
+  /// @pre each robot has a model
   virtual std::string Write(const std::vector<std::shared_ptr<const SceneMarker>>& markers,
                             const std::vector<RobotState>& robots) = 0;
 };

@@ -253,7 +253,7 @@ export const readModel = object({
 export const readSurroundings = object({ problems: listOf(string) });
 export const readLabelText = object({ text: string, height: number, color: rgb, opacity: number });
 /** @typedef {ReturnType<typeof readLabelText>} LabelText  height of a capital, m; 0: a note of fixed size */
-export const readPointsExtras = object({ size: numbers(2) });
+export const readPointsExtras = object({ size: numbers(2), in_pixels: boolean });
 
 // /api/v1/series
 const readColumns = listOf(numberOrNull);

@@ -163,11 +163,14 @@ function prepare(part) {
   }
 }
 
-/** Squares that face the camera, with the width of the file's in the world.
+/** Squares that face the camera, with the width of the file's: in the world, or in CSS pixels at any distance.
  *  @param {THREE.Points<THREE.BufferGeometry, THREE.Material>} points */
-function squares({ material: { transparent }, userData }) {
-  const { size: [width] } = readPointsExtras(userData, 'extras');
-  const material = new THREE.PointsMaterial({ size: width, vertexColors: true, transparent, depthWrite: !transparent, fog: false });
+export function squares({ material: { transparent }, userData }) {
+  const { size: [width], in_pixels: isInPixels } = readPointsExtras(userData, 'extras');
+  const material = new THREE.PointsMaterial({
+    size: width, sizeAttenuation: !isInPixels, vertexColors: true, transparent, depthWrite: !transparent, fog: false,
+  });
+  if (isInPixels) return material;  // three.js takes the pixel ratio into account itself
   // three.js takes each camera for one that sees as much as it is away.
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader.replace('gl_PointSize = size;', 'gl_PointSize = size * projectionMatrix[1][1];');

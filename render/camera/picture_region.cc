@@ -51,7 +51,8 @@ void PictureRegion::AddAround(float left, float top, float right, float bottom) 
       {x, y, pixel(right + margin_, width_) - x + 1, pixel(bottom + margin_, height_) - y + 1});
 }
 
-void PictureRegion::AddBox(const Eigen::AlignedBox3f& box, const Eigen::Matrix4f& world_from_box) {
+void PictureRegion::AddBox(const Eigen::AlignedBox3f& box, const Eigen::Matrix4f& world_from_box,
+                           float around_px) {
   if (is_everything_ || box.isEmpty()) return;
   const Eigen::Matrix4f clip_from_box = clip_from_world_ * world_from_box;
   Place least{INFINITY, INFINITY}, most{-INFINITY, -INFINITY};
@@ -62,7 +63,7 @@ void PictureRegion::AddBox(const Eigen::AlignedBox3f& box, const Eigen::Matrix4f
     least = {std::min(least.x, place.x), std::min(least.y, place.y)};
     most = {std::max(most.x, place.x), std::max(most.y, place.y)};
   }
-  AddAround(least.x, least.y, most.x, most.y);
+  AddAround(least.x - around_px, least.y - around_px, most.x + around_px, most.y + around_px);
 }
 
 bool PictureRegion::FindAll(const std::vector<Eigen::Vector3f>& positions) {

@@ -21,9 +21,11 @@ class PictureRegion {
   PictureRegion(const Camera& camera, int width, int height, double margin);
 
   void AddEverything();
-  /// A box in the world, or in the frame that `world_from_box` places there.
+  /// A box in the world, or in the frame that `world_from_box` places there, and `around_px` on
+  /// each side of it.
   void AddBox(const Eigen::AlignedBox3f& box,
-              const Eigen::Matrix4f& world_from_box = Eigen::Matrix4f::Identity());
+              const Eigen::Matrix4f& world_from_box = Eigen::Matrix4f::Identity(),
+              float around_px = 0);
   /// Triangles between `positions` (world, m): three indices each, which are valid.
   template <class Index>
   void AddTriangles(const std::vector<Eigen::Vector3f>& positions,

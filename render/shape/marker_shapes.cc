@@ -82,7 +82,7 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
   }
   if (mesh.positions.size() == first) return;
-  Eigen::AlignedBox3f& box = to.boxes.emplace_back();
+  Eigen::AlignedBox3f& box = to.boxes.emplace_back().box;
   std::vector<std::string>& names = is_blended ? to.blended_names : to.solid_names;
   for (std::size_t i = first; i < mesh.positions.size(); ++i) {
     box.extend(mesh.positions[i]);
@@ -97,15 +97,20 @@ void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {
   MarkerPoints& points = to.points.emplace_back();
   points.name = IdentityOf(marker);
   points.size = marker.scale.head<2>().cast<float>();
+  points.is_in_pixels = marker.is_in_pixels;
   points.is_blended = IsTranslucent(marker);
   points.positions.reserve(marker.points.size());
   points.colors.reserve(marker.points.size());
-  Eigen::AlignedBox3f& box = to.boxes.emplace_back();
+  auto& [box, around_px] = to.boxes.emplace_back();
   for (std::size_t i = 0; i < marker.points.size(); ++i) {
     points.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
     box.extend(points.positions.back());
     const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
     points.colors.emplace_back(color.cast<float>());
+  }
+  if (points.is_in_pixels) {
+    around_px = 0.5f * points.size.maxCoeff();
+    return;
   }
   const Eigen::Vector3f reach = Eigen::Vector3f::Constant(0.5f * points.size.norm());
   box = {box.min() - reach, box.max() + reach};

@@ -17,11 +17,18 @@ namespace kinescope::render {
 
 /// Squares that face the viewer: those of one marker.
 struct MarkerPoints {
-  std::string name;      // "scan/0"
-  Eigen::Vector2f size;  // width and height
+  std::string name;           // "scan/0"
+  Eigen::Vector2f size;       // width and height
+  bool is_in_pixels = false;  // `size` is in pixels of the picture, not in metres
   bool is_blended = false;
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector4f> colors;  // one for each
+};
+
+/// Around a marker with triangles or points.
+struct MarkerBox {
+  Eigen::AlignedBox3f box;
+  float around_px = 0;  // reach of the marker beyond the box on the screen, for points in pixels
 };
 
 struct MarkerShapes {
@@ -30,9 +37,9 @@ struct MarkerShapes {
                 // the part of a vertex is the index of its marker's name
   std::vector<std::string> solid_names, blended_names;  // "walls/3"
   std::vector<MarkerPoints> points;
-  bool is_closed = true;                   // no surface of `solid` is visible from its back
-  std::vector<Eigen::AlignedBox3f> boxes;  // around each marker with triangles or points
-  std::vector<Label> labels;               // texts, and the names of missing meshes
+  bool is_closed = true;  // no surface of `solid` is visible from its back
+  std::vector<MarkerBox> boxes;
+  std::vector<Label> labels;  // texts, and the names of missing meshes
   /// Markers that are not shown, or whose mesh is replaced by a box: one line each, with the marker
   /// and the reason. A flood of them ends with their number.
   std::vector<std::string> problems;

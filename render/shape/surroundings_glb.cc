@@ -74,7 +74,8 @@ class Document {
                          {"material", points.is_blended ? kBlended : kClosed}}}}});
     AddNode({{"name", "points"},
              {"mesh", meshes.size() - 1},
-             {"extras", {{"size", {points.size.x(), points.size.y()}}}}},
+             {"extras",
+              {{"size", {points.size.x(), points.size.y()}}, {"in_pixels", points.is_in_pixels}}}},
             kRoot);
   }
 

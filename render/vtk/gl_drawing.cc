@@ -407,6 +407,7 @@ class GlDrawing : public Drawing {
         projection_->SetElement(row, column, clip[column][row]);
     }
     camera_->Modified();
+    markers_->SetViewSize(tile.width, tile.height);
   }
 
   static Tile WholeOf(const Image& image) { return {0, 0, image.width, image.height}; }

@@ -47,6 +47,12 @@ void MarkerActors::Update(const std::vector<std::shared_ptr<const SceneMarker>>&
   labels.insert(labels.end(), labels_.begin(), labels_.end());
 }
 
+void MarkerActors::SetViewSize(int width_px, int height_px) {
+  for (PointActor* points : {&solid_points_, &blended_points_}) {
+    points->SetViewSize(width_px, height_px);
+  }
+}
+
 std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
   std::vector<std::string> names = actor == solid_.actor()            ? solid_names_
                                    : actor == blended_.actor()        ? blended_names_
@@ -58,7 +64,9 @@ std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
 }
 
 void MarkerActors::AddTo(PictureRegion& region) const {
-  for (const Eigen::AlignedBox3f& box : boxes_) region.AddBox(box);
+  for (const auto& [box, around_px] : boxes_) {
+    region.AddBox(box, Eigen::Matrix4f::Identity(), around_px);
+  }
 }
 
 }  // namespace kinescope::render

@@ -25,6 +25,9 @@ class MarkerActors {
   void Update(const std::vector<std::shared_ptr<const SceneMarker>>& markers, OnceLog& log,
               std::vector<Label>& labels);
 
+  /// As PointActor.
+  void SetViewSize(int width_px, int height_px);
+
   /// Markers that are not rendered, or whose mesh is replaced by a box: one line each, with the
   /// marker and the reason.
   const std::vector<std::string>& problems() const { return problems_; }
@@ -42,7 +45,7 @@ class MarkerActors {
   MarkerReader reader_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused
-  std::vector<Eigen::AlignedBox3f> boxes_;                   // around each of them, world
+  std::vector<MarkerBox> boxes_;                             // world
   std::vector<std::string> solid_names_, blended_names_;
   std::vector<Label> labels_;
   std::vector<std::string> problems_;

@@ -225,6 +225,10 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.alpha = *number;
     return *number >= 0 && *number <= 1;
   }
+  if (key == "pixels" && number) {
+    style.size_px = *number;
+    return *number >= kSmallestPixels && *number <= kLargestPixels;
+  }
   if (key == "points" && number) {
     const bool is_count = *number >= 1 && *number <= static_cast<double>(kMostCloudPoints) &&
                           *number == std::floor(*number);

@@ -13,6 +13,7 @@ namespace kinescope::app {
 inline constexpr double kLargestStep = 1000;                         // of EarlierMessages, m or rad
 inline constexpr double kLargestBound = 1e12;                        // of PointScale
 inline constexpr double kSmallestShown = 0.001, kLargestShown = 10;  // m, of ShownStyle::size_m
+inline constexpr double kSmallestPixels = 1, kLargestPixels = 100;   // of ShownStyle::size_px
 inline constexpr double kLongestArrow = 1000;                        // m for 1 N or 1 N·m
 inline constexpr double kLongestFrameTimeout = 1e6;                  // s
 inline constexpr double kLargestCovarianceScale = 1000;
@@ -31,8 +32,9 @@ inline constexpr char kAxesOfFrame[] = "tf:";
 [[nodiscard]] bool IsFieldName(const std::string& text);
 /// Topics to show: "/walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),/goal(shape=axes)"; points by
 /// a number of theirs: "/scan(by=z,from=0,to=2,low=#000000,high=#ffffff)",
-/// "/c(by=ring,rainbow=inverted)"; arrows of a wrench: "/push(force=0.002,torque=0,width=0.3)";
-/// axes: "tf:base_link(size=0.5)", "tf:*(names=off,arrows=off,timeout=5,without=left|right)".
+/// "/c(by=ring,rainbow=inverted,pixels=3)"; arrows of a wrench:
+/// "/push(force=0.002,torque=0,width=0.3)"; axes: "tf:base_link(size=0.5)",
+/// "tf:*(names=off,arrows=off,timeout=5,without=left|right)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

@@ -259,8 +259,8 @@ class StyleReader {
     if (has_.color == nullptr) {
       const std::string style = TextOf(display_, "Style", "");
       if (style == "Points") {
-        Remark(std::string("Style 'Points' is drawn as squares ") +
-               (kind_ == kDepthDisplay ? "as large as their pixels" : "of 1 cm"));
+        Add("pixels=" + options::NumberText(NumberOf(display_, "Size (Pixels)", 3, kSmallestPixels,
+                                                     kLargestPixels)));
       }
       if (style == "Spheres") Add("shape=spheres");
       if (style == "Boxes") Add("shape=cubes");

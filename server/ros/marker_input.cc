@@ -75,7 +75,13 @@ bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
   return a.type == b.type && a.pose.position == b.pose.position &&
          a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
          a.color == b.color && a.points == b.points && a.colors == b.colors && a.text == b.text &&
-         a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors;
+         a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors &&
+         a.is_in_pixels == b.is_in_pixels;
+}
+
+void SizeInPixels(SceneMarker& points, double size_px) {
+  points.scale.x() = points.scale.y() = size_px;
+  points.is_in_pixels = true;
 }
 
 // @pre AxisOf(style)
@@ -156,6 +162,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   }
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
+  if (style.size_px && shape->type == MarkerType::kPoints) SizeInPixels(*shape, *style.size_px);
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMaxMarkers) {
     return NoMarker("too many", message,

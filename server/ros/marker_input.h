@@ -37,8 +37,9 @@ class MarkerStore {
   using Markers = std::vector<std::shared_ptr<const SceneMarker>>;
 
   /// `topic` identifies the sender: namespaces and ids of markers are separate per topic. Points
-  /// that `style` colours by an axis have their colours as soon as they have a place; markers of a
-  /// namespace that it leaves out (`frames.hidden`) have no effect.
+  /// that `style` colours by an axis have their colours as soon as they have a place; those of the
+  /// type POINTS have its size in pixels (`size_px`), if it has one; markers of a namespace that it
+  /// leaves out (`frames.hidden`) have no effect.
   /// @return why the message was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,

@@ -109,6 +109,54 @@ TEST_F(MarkerDrawing, DrawsPointsAsSquaresThatFaceTheCameraInTheirOwnColour) {
   }
 }
 
+SceneMarker PointsInPixels(double size_px, std::vector<Eigen::Vector3d> points) {
+  SceneMarker marker;
+  marker.type = MarkerType::kPoints;
+  marker.scale = {size_px, size_px, 0};
+  marker.is_in_pixels = true;
+  marker.points = std::move(points);
+  marker.color = {1, 0.5, 0, 1};
+  return marker;
+}
+
+TEST_F(MarkerDrawing, DrawsPointsInPixelsEquallyLargeAtAnyDistance) {
+  Camera camera = Ahead();
+  camera.position.z() = camera.target.z();
+  for (const Camera& seen_by : {camera, Orthographic(camera)}) {
+    for (const int supersample : {1, 2}) {
+      spec_.supersample = supersample;
+      const Image empty = renderer_->Render(Empty(), seen_by, spec_);
+      for (const double x : {4.0, -30.0}) {  // 1 m and 35 m away, before the middle of the picture
+        const SceneMarker point = PointsInPixels(4, {{x, 0, camera.target.z()}});
+        const Comparison change = Compare(empty, renderer_->Render(With({point}), seen_by, spec_));
+        EXPECT_EQ(change.pixels, 16) << x << " m, " << supersample << "x";
+        EXPECT_EQ(change.right - change.left, 3) << x << " m, " << supersample << "x";
+        EXPECT_EQ(change.left, kViewWidth / 2 - 2) << x << " m, " << supersample << "x";
+        EXPECT_EQ(change.top, kViewHeight / 2 - 2) << x << " m, " << supersample << "x";
+      }
+    }
+  }
+}
+
+TEST_F(MarkerDrawing, DrawsPointsInPixelsEquallyLargeInEachTile) {
+  spec_.width = 1100;  // drawn as tiles of 1024 and 76 px
+  spec_.height = 40;
+  spec_.supersample = 4;
+  spec_.overlays = false;
+  Camera camera = Ahead();
+  camera.position.z() = camera.target.z();
+  const double px_per_m = Project(camera.target, camera, spec_.width, spec_.height).px_per_m;
+  const auto at = [&](double px_from_middle) {
+    return Eigen::Vector3d(0, px_from_middle / px_per_m, camera.target.z());
+  };
+  const Image empty = renderer_->Render(Empty(), camera, spec_);
+  const SceneMarker points = PointsInPixels(4, {at(-500), at(500)});
+  const Comparison change = Compare(empty, renderer_->Render(With({points}), camera, spec_));
+  EXPECT_EQ(change.pixels, 2 * 16);
+  EXPECT_EQ(change.right - change.left, 1000 + 3);
+  EXPECT_EQ(change.bottom - change.top, 3);
+}
+
 TEST_F(MarkerDrawing, RejectsTooManyTrianglesByName) {
   SceneMarker flood;
   flood.ns = "flood";

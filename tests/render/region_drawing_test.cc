@@ -107,6 +107,20 @@ std::shared_ptr<const SceneMarker> MarkerOf(MarkerType type, const Eigen::Vector
   return std::make_shared<const SceneMarker>(marker);
 }
 
+// In pixels; also at the edges of the picture and beyond them.
+std::shared_ptr<const SceneMarker> WidePoints() {
+  SceneMarker marker;
+  marker.type = MarkerType::kPoints;
+  marker.scale = {50, 30, 0};
+  marker.is_in_pixels = true;
+  for (const double y : {-3.0, -2.0, -1.5, 0.0, 1.5, 2.0, 3.0}) {
+    marker.points.emplace_back(0, y, 1.1);
+    marker.points.emplace_back(-20, 5 * y, 1.1);
+  }
+  marker.color = {0.2, 0.5, 0.9, 1};
+  return std::make_shared<const SceneMarker>(marker);
+}
+
 std::vector<Extreme> Extremes() {
   std::vector<Extreme> all;
   const auto add = [&](const char* name) -> Extreme& {
@@ -124,6 +138,7 @@ std::vector<Extreme> Extremes() {
   add("a label that runs out of the picture").state.markers = {
       MarkerOf(MarkerType::kText, Vector3d(0, 0, 0.3), Vector3d(0, 1.2, 1)),
       MarkerOf(MarkerType::kText, Vector3d(0, 0, 40), Vector3d(-3, 0, 1))};
+  add("points in pixels").state.markers = {WidePoints()};
   Trail hour{{}, {0.1, 0.4, 0.7}, "hand"};
   for (int i = 0; i < 3600; ++i) {
     const double t = i;

@@ -141,6 +141,7 @@ TEST(Surroundings, HaveEveryTypeOfMarker) {
           glb.document()["accessors"][part["attributes"]["POSITION"].get<std::size_t>()]["count"],
           marker.points.size());
       EXPECT_NEAR(glb.Node("points")["extras"]["size"][0].get<double>(), marker.scale.x(), 1e-6);
+      EXPECT_EQ(glb.Node("points")["extras"]["in_pixels"], false);
       EXPECT_FALSE(part["attributes"].contains("NORMAL")) << "other viewers light them then";
       continue;
     }
@@ -148,6 +149,16 @@ TEST(Surroundings, HaveEveryTypeOfMarker) {
     EXPECT_LT(box.exteriorDistance(marker.pose.position), 1e-4) << Name(marker.type);
     EXPECT_LT(box.sizes().maxCoeff(), 1) << Name(marker.type);
   }
+}
+
+TEST(Surroundings, HaveSizesOfPointsInPixels) {
+  SceneMarker points;
+  points.type = MarkerType::kPoints;
+  points.scale = {3, 4, 0};
+  points.is_in_pixels = true;
+  points.points = {{1, 2, 3}};
+  const Glb glb(MakeSurroundingsWriter()->Write(Shared({points}), {}));
+  EXPECT_EQ(glb.Node("points")["extras"], json::parse(R"({"size": [3, 4], "in_pixels": true})"));
 }
 
 TEST(Surroundings, AreEmptyWithoutAny) {

@@ -257,7 +257,7 @@ Visualization Manager:
     - {Class: rviz/PointCloud2, Enabled: true, Topic: /e, Color Transformer: FlatColor,
        Color: "#00ff80", Style: Boxes, Size (m): 0.03}
     - {Class: rviz/PointCloud2, Enabled: true, Topic: /f, Color Transformer: RGB8,
-       Color: 1; 2; 3, Style: Points, Size (m): 0.03}
+       Color: 1; 2; 3, Style: Points, Size (m): 0.03, Size (Pixels): 5}
     - {Class: rviz/LaserScan, Enabled: true, Topic: /g, Color Transformer: AxisColor, Size (m): -1}
     - {Class: rviz/WrenchStamped, Enabled: true, Topic: /h, Force Color: 1; 2; 3}
     - {Class: rviz/PoseArray, Enabled: true, Topic: /i, Arrow Length: 0.5}
@@ -286,8 +286,8 @@ Visualization Manager:
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
                   "(shape=axes,pose_size=0.3,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)",
-                  "", "(by=z)", "(color=#010203,force=2.6,torque=2.6,width=0.5)", "(size=0.5)",
-                  "(size=10)",
+                  "(pixels=5)", "(by=z)", "(color=#010203,force=2.6,torque=2.6,width=0.5)",
+                  "(size=0.5)", "(size=10)",
                   "(color=#0000ff,alpha=0.5,size=0.75,covariance=1,covariance_alpha=0.3,covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
@@ -309,6 +309,8 @@ Visualization Manager:
   EXPECT_EQ((*value)[0].style.alpha, 0.5);
   EXPECT_EQ((*value)[0].style.size_m, 0.1);
   EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
+  EXPECT_EQ((*value)[4].style.size_px, std::nullopt);
+  EXPECT_EQ((*value)[5].style.size_px, 5);
   EXPECT_EQ((*value)[8].name, "/i");
   value.Parse(others);
   ASSERT_EQ(value->size(), 5u);
@@ -317,6 +319,21 @@ Visualization Manager:
   EXPECT_TRUE((*value)[1].style.scale->is_inverted);
   EXPECT_EQ((*value)[2].style.scale->to, 1e12);
   EXPECT_EQ(((*value)[2].style.scale->low), (Rgb{0, 0, 1}));
+}
+
+TEST(RvizFile, HasPointsInPixelsWithinLimits) {
+  const auto style_of = [](const std::string& display) {
+    const RvizPicture picture =
+        ReadText(WithDisplays("    - {Enabled: true, Name: A, Style: Points, " + display + "}\n"));
+    EXPECT_THAT(picture.remarks, Not(Contains(HasSubstr("'A'")))) << display;
+    return picture.topics.at(0).style;
+  };
+  EXPECT_EQ(style_of("Class: rviz/LaserScan, Topic: /a"), "(pixels=3)") << "as RViz has it";
+  EXPECT_EQ(style_of("Class: rviz/LaserScan, Topic: /a, Size (Pixels): 0.2"), "(pixels=1)");
+  EXPECT_EQ(style_of("Class: rviz/PointCloud, Topic: /a, Size (Pixels): 1e9"), "(pixels=100)");
+  EXPECT_EQ(style_of("Class: rviz/DepthCloud, Depth Map Topic: /a, Size (Pixels): 2.5, "
+                     "Auto Size: {Value: true}"),
+            "(cloud=on,pixels=2.5)");
 }
 
 TEST(RvizFile, HasEffortsAsRings) {
@@ -531,8 +548,7 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
       {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},
       {"Class: rviz/RobotModel, Links: {a: {Value: false}, b: {Value: true}, c: {Value: false}}",
        "links that are off are drawn: a and 1 others"},
-      {"Class: rviz/Image, Image Topic: /a, Normalize Range: false", "Normalize Range is off"},
-      {"Class: rviz/LaserScan, Topic: /a, Style: Points", "Style 'Points' is drawn as squares"}};
+      {"Class: rviz/Image, Image Topic: /a, Normalize Range: false", "Normalize Range is off"}};
   for (const auto& [display, remark] : cases) {
     EXPECT_THAT(remarks_of(display), Contains(HasSubstr("'A': " + remark))) << display;
   }
@@ -647,6 +663,9 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(color=red)",
                           "/a(size=0)",
                           "/a(size=11)",
+                          "/a(pixels=0.5)",
+                          "/a(pixels=101)",
+                          "/a(pixels=few)",
                           "/a(alpha=2)",
                           "/a(shape=cube)",
                           "/a(scheme=raw)",

@@ -220,6 +220,44 @@ TEST(MarkerStore, ColoursPointsByTheirPlaceInTheScene) {
       << "10 m: magenta";
 }
 
+TEST(MarkerStore, SizesSquaresOfATopicInPixels) {
+  MarkerStore store;
+  const Cart cart;
+  ShownStyle style;
+  style.size_px = 3;
+  style.scale = PointScale{};
+  style.scale->by = "x";
+  EXPECT_FALSE(store.Apply(0, Of(Marker::CUBE_LIST), 0, style));
+  EXPECT_FALSE(store.Apply(0, Of(Marker::POINTS), 0, style));
+  EXPECT_FALSE(store.Apply(1, Of(Marker::POINTS), 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  const SceneMarker &cubes = *store.markers().at(0), &points = *store.markers().at(1),
+                    &others = *store.markers().at(2);
+  EXPECT_TRUE(points.is_in_pixels);
+  EXPECT_EQ(points.scale.x(), 3);
+  EXPECT_EQ(points.scale.y(), 3);
+  EXPECT_EQ(points.colors.size(), 6u);
+  EXPECT_NE(points.colors.front(), points.colors.back()) << "by their place, too";
+  for (const SceneMarker* in_metres : {&cubes, &others}) {
+    EXPECT_FALSE(in_metres->is_in_pixels);
+    EXPECT_EQ(in_metres->scale.x(), 0.1);
+  }
+}
+
+TEST(MarkerStore, TellsThreePixelsFromThreeMetres) {
+  MarkerStore store;
+  const Cart cart;
+  Marker points = Of(Marker::POINTS);
+  points.scale.x = points.scale.y = 3;
+  EXPECT_FALSE(store.Apply(0, points, 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  ShownStyle style;
+  style.size_px = 3;
+  EXPECT_FALSE(store.Apply(0, points, 0, style));
+  EXPECT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_TRUE(store.markers().at(0)->is_in_pixels);
+}
+
 TEST(MarkerStore, WaitsForAnUnknownFrameAndNamesItOnce) {
   MarkerStore store;
   Cart cart;
