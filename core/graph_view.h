@@ -108,7 +108,8 @@ struct ShownStyle {
   bool has_spheres = false, has_cubes = false;
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
-  bool has_handles = true;  // of interactive markers: those of RViz's Interact tool alone
+  bool has_updates = false;  // of a map: with those that come on "<topic>_updates"
+  bool has_handles = true;   // of interactive markers: those of RViz's Interact tool alone
   WrenchArrows wrench = {};
   FramesStyle frames = {};
   CovarianceStyle covariance = {};

@@ -194,6 +194,10 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
+  if (key == "updates") {
+    style.has_updates = text == "on";
+    return text == "on" || text == "off";
+  }
   if (is_one_of(
           {"force", "torque", "torque_color", "linear", "angular", "angular_color", "small"})) {
     return TakeArrows(key, text, style.wrench);

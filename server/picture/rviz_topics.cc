@@ -114,7 +114,7 @@ class StyleReader {
       if (alpha < 1) Add("alpha=" + options::NumberText(alpha));
     }
     AddShapeAndSize();
-    if (kind_ == "rviz/Map") AddScheme();
+    if (kind_ == "rviz/Map") AddMap();
     for (const ArrowProperties& arrows : kArrowDisplays) {
       if (kind_ == arrows.kind) AddArrows(arrows);
     }
@@ -338,13 +338,14 @@ class StyleReader {
     }
   }
 
-  void AddScheme() {
+  void AddMap() {
     const std::string scheme = TextOf(display_, "Color Scheme", "map");
     if (scheme == "costmap") {
       Add("scheme=costmap");
     } else if (scheme != "map") {
       Remark("Color Scheme '" + scheme + "' is drawn as 'map'");
     }
+    Add("updates=on");
   }
 
   void AddEarlier() {

@@ -1,5 +1,6 @@
 #include "server/ros/marker_decoder.h"
 
+#include <nav_msgs/OccupancyGrid.h>
 #include <ros/message_traits.h>
 #include <sensor_msgs/JointState.h>
 #include <spdlog/fmt/fmt.h>
@@ -29,9 +30,11 @@ std::string Said(const MarkerDecoder::Event& event, const char* key) {
   return found == connection.end() ? std::string() : found->second;
 }
 
-// Whether the newest message of the topic is all that is shown of it.
+// Whether the newest message of the topic is all that is shown of it. Updates of a map belong to
+// the map before them.
 bool ReplacesThoseBefore(const std::string& md5sum, const ShownStyle& style, bool has_colors) {
   if (has_colors || IsImageType(md5sum)) return true;
+  if (style.has_updates && Is<nav_msgs::OccupancyGrid>(md5sum)) return false;
   const bool stays = style.earlier.keep > 1 || style.earlier.decay_secs > 0;
   return !stays && FindShownMessage(md5sum) != nullptr;
 }

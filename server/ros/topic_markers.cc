@@ -15,6 +15,8 @@
 namespace kinescope::ros_bridge {
 namespace {
 
+using map_msgs::OccupancyGridUpdate;
+using nav_msgs::OccupancyGrid;
 using sensor_msgs::JointState;
 using visualization_msgs::InteractiveMarkerInit;
 using visualization_msgs::InteractiveMarkerUpdate;
@@ -42,6 +44,10 @@ bool IsOfDepths(const std::string& md5sum, const ShownStyle& style) {
   return style.camera.is_cloud && (IsImageType(md5sum) || IsCalibrationType(md5sum));
 }
 
+bool IsOfUpdatedMap(const std::string& md5sum, const ShownStyle& style) {
+  return style.has_updates && (Is<OccupancyGrid>(md5sum) || Is<OccupancyGridUpdate>(md5sum));
+}
+
 // An image that does not outlive `bytes`.
 Taken<CameraImage> ReadImageIn(const std::string& md5sum, const std::vector<std::uint8_t>& bytes) {
   return ReadImage(md5sum, {std::shared_ptr<const void>(), &bytes});
@@ -55,8 +61,8 @@ bool EndsWithUpdate(const std::string& topic) {
 }  // namespace
 
 bool TopicMarkers::IsShown(const std::string& md5sum, const ShownStyle& style) {
-  return IsInteractive(md5sum) || IsOfDepths(md5sum, style) || Is<JointState>(md5sum) ||
-         FindShownMessage(md5sum) != nullptr;
+  return IsInteractive(md5sum) || IsOfDepths(md5sum, style) || IsOfUpdatedMap(md5sum, style) ||
+         Is<JointState>(md5sum) || FindShownMessage(md5sum) != nullptr;
 }
 
 std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& name,
@@ -101,6 +107,7 @@ Taken<ShownMarkers> TopicMarkers::ToMarkersOf(std::size_t topic, const ShownStyl
                                               const std::string& md5sum,
                                               const std::vector<std::uint8_t>& bytes) {
   if (IsOfDepths(md5sum, style)) return TakeDepths(topic, style, md5sum, bytes);
+  if (IsOfUpdatedMap(md5sum, style)) return TakeMap(topic, style, md5sum, bytes);
   if (!Is<JointState>(md5sum)) return FindShownMessage(md5sum)(bytes, style);
   JointState joints;
   if (!ReadBounded(bytes.data(), bytes.size(), joints)) return tl::unexpected(Unreadable());
@@ -123,6 +130,19 @@ Taken<ShownMarkers> TopicMarkers::TakeDepths(std::size_t topic, const ShownStyle
   return clouds_.ToMarkers(topic, *depths, header, style);
 }
 
+Taken<ShownMarkers> TopicMarkers::TakeMap(std::size_t topic, const ShownStyle& style,
+                                          const std::string& md5sum,
+                                          const std::vector<std::uint8_t>& bytes) {
+  if (Is<OccupancyGridUpdate>(md5sum)) {
+    OccupancyGridUpdate update;
+    if (!ReadBounded(bytes.data(), bytes.size(), update)) return tl::unexpected(Unreadable());
+    return maps_.Update(topic, update, style);
+  }
+  OccupancyGrid map;
+  if (!ReadBounded(bytes.data(), bytes.size(), map)) return tl::unexpected(Unreadable());
+  return maps_.Put(topic, std::move(map), style);
+}
+
 std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown) {
   std::vector<HeardTopic> all = {{shown.name}};
   if (EndsWithUpdate(shown.name)) all.push_back({shown.name + "_full"});
@@ -131,6 +151,7 @@ std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown) {
     all.push_back({CalibrationTopicOf(shown.name)});
   }
   if (!camera.color_topic.empty()) all.push_back({camera.color_topic, true});
+  if (shown.style.has_updates) all.push_back({shown.name + "_updates"});
   return all;
 }
 

@@ -16,6 +16,7 @@
 #include "server/ros/effort_rings.h"
 #include "server/ros/interactive_markers.h"
 #include "server/ros/shown_messages.h"
+#include "server/ros/updated_maps.h"
 
 namespace kinescope::ros_bridge {
 
@@ -25,7 +26,7 @@ class TopicMarkers {
   explicit TopicMarkers(FindJoint find = {}) : find_joint_(std::move(find)) {}
 
   /// Whether messages of this type are shown as markers, or say how others are: of a cloud of
-  /// depths, the calibration.
+  /// depths, the calibration; of a map, its updates.
   static bool IsShown(const std::string& md5sum, const ShownStyle& style);
 
   /// Of a message of topic number `topic`, in a namespace as a legend has it: "plan" for "/plan",
@@ -46,11 +47,14 @@ class TopicMarkers {
                                   const std::vector<std::uint8_t>& bytes);
   Taken<ShownMarkers> TakeDepths(std::size_t topic, const ShownStyle& style,
                                  const std::string& md5sum, const std::vector<std::uint8_t>& bytes);
+  Taken<ShownMarkers> TakeMap(std::size_t topic, const ShownStyle& style, const std::string& md5sum,
+                              const std::vector<std::uint8_t>& bytes);
 
   const FindJoint find_joint_;
   MessageShelf shelf_;
   std::map<std::size_t, InteractiveMarkers> interactive_;  // by topic
   DepthClouds clouds_;
+  UpdatedMaps maps_;
 };
 
 /// A topic that is heard for one that is shown.
@@ -60,7 +64,8 @@ struct HeardTopic {
 };
 /// The topic itself, and those beside it: of a server of interactive markers, "<name>/update_full"
 /// beside "<name>/update", which has all that it shows; of images, the calibration of their camera
-/// where the scene is drawn over them; of depths, the calibration and the colours.
+/// where the scene is drawn over them; of depths, the calibration and the colours; of a map,
+/// "<name>_updates" if the style has it.
 std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown);
 
 /// "geometry_msgs/PointStamped, ..."

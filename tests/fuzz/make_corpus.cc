@@ -472,6 +472,9 @@ void WriteMaps(const fs::path& folder) {
   map.Reals<double>({0, 0, 0, 0, 0, 0, 1}).Count(6);
   for (const int cell : {0, 0, 100, 0, -1, 50}) map.Byte(cell);
   Write(folder / "map", map.bytes());
+  RosBytes update('\41');
+  update.Header("map").Count(1).Count(2).Count(2).Count(1).Count(2);  // x, y, width, height, cells
+  Write(folder / "map_update", update.Byte(100).Byte(-1).bytes());
   RosBytes image('\23');
   image.Header("camera").Count(2).Count(2).Text("rgb8").Byte(0).Count(6).Count(12);
   for (int i = 0; i < 12; ++i) image.Byte(20 * i);

@@ -3,6 +3,8 @@
 // rejected, or have no more in them
 // than their bytes; markers that are accepted can be rendered.
 #include <kinescope/JointLoadArray.h>
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
@@ -123,6 +125,14 @@ void CheckInteractive(const std::vector<std::uint8_t>& bytes) {
   CheckMarkers(all);
 }
 
+template <class Message>
+std::vector<std::uint8_t> Serialized(const Message& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  return bytes;
+}
+
 // Depths before and after a calibration, which may be the bytes.
 template <class Message>
 void CheckDepths(const std::vector<std::uint8_t>& bytes) {
@@ -131,9 +141,6 @@ void CheckDepths(const std::vector<std::uint8_t>& bytes) {
   sensor_msgs::CameraInfo info;
   info.width = info.height = 4;
   info.P[0] = info.P[5] = 4;
-  std::vector<std::uint8_t> known(ros::serialization::serializationLength(info));
-  ros::serialization::OStream out(known.data(), static_cast<std::uint32_t>(known.size()));
-  ros::serialization::serialize(out, info);
   TopicMarkers topics;
   ShownMarkers markers;
   const auto take = [&](const std::string& type, const std::vector<std::uint8_t>& message) {
@@ -142,12 +149,36 @@ void CheckDepths(const std::vector<std::uint8_t>& bytes) {
   };
   const std::string type = ros::message_traits::md5sum<Message>();
   take(type, bytes);
-  take(ros::message_traits::md5sum<sensor_msgs::CameraInfo>(), known);
+  take(ros::message_traits::md5sum<sensor_msgs::CameraInfo>(), Serialized(info));
   if (type == ros::message_traits::md5sum<sensor_msgs::Image>()) {
     const auto refusal = topics.TakeColors(0, type, bytes);
     KINESCOPE_CHECK(!refusal || !refusal->text.empty());
   }
   take(type, bytes);
+  CheckMarkers(markers);
+}
+
+// An update before and after a map of 4 x 3 cells.
+void CheckMapUpdate(const std::vector<std::uint8_t>& bytes) {
+  ShownStyle style;
+  style.has_updates = true;
+  nav_msgs::OccupancyGrid map;
+  map.info.resolution = 0.5F;
+  map.info.width = 4;
+  map.info.height = 3;
+  map.info.origin.orientation.w = 1;
+  map.data.resize(12);
+  TopicMarkers topics;
+  ShownMarkers markers;
+  const auto take = [&](const std::string& type, const std::vector<std::uint8_t>& message) {
+    const auto refusal = topics.Take(0, "map", style, type, message, markers);
+    KINESCOPE_CHECK(!refusal || !refusal->text.empty());
+    return !refusal;
+  };
+  const std::string update = ros::message_traits::md5sum<map_msgs::OccupancyGridUpdate>();
+  KINESCOPE_CHECK(!take(update, bytes));
+  KINESCOPE_CHECK(take(ros::message_traits::md5sum<nav_msgs::OccupancyGrid>(), Serialized(map)));
+  take(update, bytes);
   CheckMarkers(markers);
 }
 
@@ -179,7 +210,7 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 33) {
+  switch (data[0] % 34) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers({marker});
@@ -220,7 +251,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 29: CheckInteractive<visualization_msgs::InteractiveMarkerUpdate>(bytes); break;
     case 30: CheckDepths<sensor_msgs::Image>(bytes); break;
     case 31: CheckDepths<sensor_msgs::CameraInfo>(bytes); break;
-    default: CheckCalibration(bytes); break;
+    case 32: CheckCalibration(bytes); break;
+    default: CheckMapUpdate(bytes); break;
   }
   return 0;
 }

@@ -291,8 +291,8 @@ Visualization Manager:
                   "(color=#0000ff,alpha=0.5,size=0.75,covariance=1,covariance_alpha=0.3,covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
-                  "(alpha=0.25,scheme=costmap)", "", "(color=#19ff00)", "(by=x,from=-1,to=2.5)",
-                  "(by=intensity,rainbow=inverted)",
+                  "(alpha=0.25,scheme=costmap,updates=on)", "(updates=on)", "(color=#19ff00)",
+                  "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark :
        {"Draw Behind 'true': it is drawn in", "Color Scheme 'raw' is drawn as 'map'",
@@ -306,6 +306,9 @@ Visualization Manager:
   ASSERT_EQ(value->size(), 14u);
   EXPECT_TRUE((*value)[1].style.has_axes);
   EXPECT_TRUE((*value)[11].style.is_costmap);
+  EXPECT_TRUE((*value)[11].style.has_updates);
+  EXPECT_TRUE((*value)[12].style.has_updates);
+  EXPECT_FALSE((*value)[13].style.has_updates);
   EXPECT_EQ((*value)[0].style.alpha, 0.5);
   EXPECT_EQ((*value)[0].style.size_m, 0.1);
   EXPECT_EQ(((*value)[4].style.color), (Rgb{0, 1, 128 / 255.0}));
@@ -669,6 +672,7 @@ TEST(RvizFile, RefusesStylesThatSayNothing) {
                           "/a(alpha=2)",
                           "/a(shape=cube)",
                           "/a(scheme=raw)",
+                          "/a(updates=yes)",
                           "/a(points=0)",
                           "/a(keep=0)",
                           "/a(keep=1001)",

@@ -197,6 +197,10 @@ TEST(TopicsHeardFor, AreThoseBesideAnImageThatItNeeds) {
   EXPECT_THAT(names_of(topic),
               ElementsAre("/eye/image_raw", "/eye/camera_info", "/rgb/image (colours)"));
   EXPECT_THAT(names_of({"/goals/update"}), ElementsAre("/goals/update", "/goals/update_full"));
+  ShownTopic map{"/map"};
+  EXPECT_THAT(names_of(map), ElementsAre("/map"));
+  map.style.has_updates = true;
+  EXPECT_THAT(names_of(map), ElementsAre("/map", "/map_updates"));
 }
 
 // Its camera is at x = 1 at the time 5 s, and at x = 2 now.

@@ -4,6 +4,8 @@
 #include <geometry_msgs/PointStamped.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
@@ -347,6 +349,43 @@ TEST_F(BagSurroundingsTest, AreInteractiveMarkersWithTheirUpdates) {
   EXPECT_EQ(recorded.markers[3][0]->pose.position.x(), 4);
   EXPECT_EQ(recorded.markers[3][0]->ns, "goals");
   EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+}
+
+// A free map of two cells, then a wall in one of them.
+TEST_F(BagSurroundingsTest, AreMapsWithTheirUpdatesIfTold) {
+  nav_msgs::OccupancyGrid map;
+  map.header.frame_id = "world";
+  map.info.resolution = 0.5F;
+  map.info.width = 2;
+  map.info.height = 1;
+  map.info.origin.orientation.w = 1;
+  map.data = {0, 0};
+  map_msgs::OccupancyGridUpdate update;
+  update.header.frame_id = "world";
+  update.x = 1;
+  update.width = update.height = 1;
+  update.data = {100};
+  const auto write = [&](rosbag::Bag& bag) {
+    bag.write("/map_updates", TimeOf(kBegin - 2), update);
+    bag.write("/map", TimeOf(kBegin - 1), map);
+    bag.write("/map_updates", TimeOf(kBegin + 2 * kStep + 1), update);
+  };
+  GraphView view;
+  view.topics = {{"map"}};
+  const Recorded frozen = Read(write, view);
+  EXPECT_EQ(frozen.markers.at(5).at(0)->points.size(), 6u);
+  EXPECT_THAT(frozen.counters.rejected, IsEmpty());
+  view.topics[0].style.has_updates = true;
+  const Recorded recorded = Read(write, view);
+  EXPECT_THAT(CountsOf(recorded), ElementsAre(1, 1, 1, 1, 1, 1));
+  EXPECT_EQ(recorded.markers[2][0]->points.size(), 6u);
+  const SceneMarker& updated = *recorded.markers[3][0];
+  ASSERT_EQ(updated.points.size(), 12u);
+  EXPECT_EQ(updated.colors.at(0).head<3>(), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(updated.colors.at(6).head<3>(), Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(updated.ns, "map");
+  EXPECT_THAT(recorded.counters.rejected,
+              ElementsAre(Pair("map_msgs/OccupancyGridUpdate: no map yet", 1)));
 }
 
 TEST_F(BagSurroundingsTest, AreEarlierMessagesToo) {
