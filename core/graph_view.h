@@ -54,6 +54,11 @@ struct TurnCovarianceStyle {
   double offset_m = 1;  // length of the axes
 };
 
+/// Of arrows of poses, m; unset: in the usual proportions to their length.
+struct ArrowStyle {
+  std::optional<double> head_m, shaft_width_m, head_width_m;
+};
+
 /// Poses along a path, if they are shown.
 struct PathPoses {
   std::optional<double> size_m;  // length of their axes or arrows
@@ -109,12 +114,14 @@ struct ShownStyle {
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
   bool has_updates = false;  // of a map: with those that come on "<topic>_updates"
+  bool has_array = false;    // markers of "<topic>_array", too
   bool has_handles = true;   // of interactive markers: those of RViz's Interact tool alone
   WrenchArrows wrench = {};
   FramesStyle frames = {};
   CovarianceStyle covariance = {};
   TurnCovarianceStyle turn_covariance = {};
   PathPoses poses = {};
+  ArrowStyle arrow = {};
   CameraStyle camera = {};
   EarlierMessages earlier = {};
 };
@@ -128,6 +135,8 @@ struct ShownTopic {
   std::string name;
   ShownStyle style = {};
   bool is_frame = false;  // no topic: a frame of TF whose axes are shown; "": that of the scene
+  bool leaves_out_others = false;  // no topic: of a bag, markers of topics that are not named are
+                                   // not shown
   bool is_every_frame() const { return is_frame && name == kEveryFrame; }
 };
 

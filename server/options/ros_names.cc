@@ -123,6 +123,15 @@ bool TakePoses(const std::string& key, const std::string& text, PathPoses& poses
   return poses.size_m && *poses.size_m >= kSmallestShown && *poses.size_m <= kLargestShown;
 }
 
+// "head=0.3", "head_width=0.1", "shaft_width=0.05" of arrows of poses.
+bool TakeArrow(const std::string& key, const std::string& text, ArrowStyle& arrow) {
+  auto& metres = key == "head"         ? arrow.head_m
+                 : key == "head_width" ? arrow.head_width_m
+                                       : arrow.shaft_width_m;
+  metres = options::ParseNumber(text);
+  return metres && *metres >= kSmallestShown && *metres <= kLargestShown;
+}
+
 // "without=left|right": frames, or namespaces of a topic of markers.
 bool TakeHidden(const std::string& text, std::vector<std::string>& hidden) {
   std::size_t begin = 0;
@@ -210,6 +219,11 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     return TakeTurnCovariance(key, text, style.turn_covariance);
   }
   if (is_one_of({"scene", "pane", "cloud", "colors"})) return TakeCamera(key, text, style.camera);
+  if (is_one_of({"head", "head_width", "shaft_width"})) return TakeArrow(key, text, style.arrow);
+  if (key == "array") {
+    style.has_array = text == "on";
+    return text == "on" || text == "off";
+  }
   if (is_one_of({"pose_size", "pose_color"})) return TakePoses(key, text, style.poses);
   if (key == "handles") {
     style.has_handles = text == "on";
@@ -248,6 +262,8 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
   ShownTopic topic;
   const std::size_t open = text.find('(');
   topic.name = text.substr(0, open);
+  topic.leaves_out_others = text == kNoOtherTopics;
+  if (topic.leaves_out_others) return topic;
   topic.is_frame = StartsWith(topic.name, kAxesOfFrame);
   if (topic.is_frame) topic.name.erase(0, std::strlen(kAxesOfFrame));
   const bool is_good = topic.is_frame

@@ -26,6 +26,8 @@ inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
 /// Before the name of a frame among topics: its axes are shown; before kEveryFrame: all frames.
 inline constexpr char kAxesOfFrame[] = "tf:";
+/// Among topics: markers of a bag that come on none of them are not shown.
+inline constexpr char kNoOtherTopics[] = "-*";
 /// A frame, or the prefix of frames: not with / at its beginning.
 [[nodiscard]] bool IsFrameName(const std::string& text);
 /// A field of a cloud: letters, digits and _.

@@ -33,6 +33,7 @@ constexpr std::size_t kMostRemarks = 200;
 constexpr double kDarkest = 48.0 / 255;  // RViz's own background
 constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
 constexpr double kFarthest = 1000;       // m, of a camera
+constexpr double kNearest = 0.05;        // m, a clip distance that cuts nothing off
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -55,7 +56,8 @@ class RvizReader {
     }
     ReadGlobalOptions(manager);
     ReadTools(Member(manager, "Tools"));
-    ReadDisplays(Member(manager, "Displays"), true);
+    ReadDisplays(Member(manager, "Displays"), BoolOf(manager, "Enabled", true));
+    NameRingsWithoutRobots();
     SetParts(LineOf(manager));
     ReadView(manager);
     ReadTime(Member(root, "Panels"));
@@ -126,7 +128,7 @@ class RvizReader {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
       ReadMarkers(display);
-      ReadTopic(display, called, "Marker Topic", HiddenNamespaces(display, called));
+      ReadTopic(display, called, "Marker Topic", MarkerStyleOf(display, kind, called));
     } else if (kind == "rviz/Image" || kind == "rviz/Camera") {
       ReadTopic(display, called, "Image Topic",
                 kind == "rviz/Camera" ? CameraStyleOf(display, called) : "");
@@ -140,6 +142,7 @@ class RvizReader {
     } else if (kind == "rviz/DepthCloud") {
       ReadTopic(display, called, "Depth Map Topic", StyleOf(display, kind, called));
     } else if (rviz::IsTopicDisplay(kind)) {
+      if (kind == "rviz/Effort") rings_.emplace_back(display, called);
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
     } else if (kind == "rviz/Axes") {
       ReadAxes(display, called);
@@ -162,6 +165,15 @@ class RvizReader {
       Remark(display, called + ": Reference Frame " + Quoted(frame) + ": the floor is the scene's");
     }
     NameOffset(display, called, "the floor is the scene's");
+    const auto differs = [&](const char* property, double usual) {
+      return rviz::NumberOf(display, property, usual, 0, kFarthest) != usual;
+    };
+    if (differs("Cell Size", 1) || differs("Plane Cell Count", 10) ||
+        differs("Normal Cell Count", 0)) {
+      Remark(display, called +
+                          ": size and number of its cells are not taken: the floor is the "
+                          "scene's");
+    }
   }
 
   void NameOffset(const YAML::Node& display, const std::string& called, const char* otherwise) {
@@ -177,15 +189,40 @@ class RvizReader {
   void NameLinks(const YAML::Node& display, const std::string& called) {
     const YAML::Node links = Member(display, "Links");
     if (!links.IsDefined() || !links.IsMap()) return;
-    std::vector<std::string> off;
+    std::vector<std::string> off, others;
     for (const auto& link : links) {
       if (!link.first.IsScalar() || !link.second.IsMap()) continue;
-      if (!BoolOf(link.second, "Value", true)) off.push_back(link.first.as<std::string>());
+      const std::string name = link.first.as<std::string>();
+      if (!BoolOf(link.second, "Value", true)) off.push_back(name);
+      if (BoolOf(link.second, "Show Axes", false) || BoolOf(link.second, "Show Trail", false) ||
+          rviz::NumberOf(link.second, "Alpha", 1, 0, 1) < 1) {
+        others.push_back(name);
+      }
     }
-    if (off.empty()) return;
-    Remark(display,
-           fmt::format("{}: links that are off are drawn: {}{}", called, off.front(),
-                       off.size() > 1 ? fmt::format(" and {} others", off.size() - 1) : ""));
+    const auto remark = [&](const std::vector<std::string>& names, const char* what) {
+      if (names.empty()) return;
+      Remark(display,
+             fmt::format("{}: {}: {}{}", called, what, names.front(),
+                         names.size() > 1 ? fmt::format(" and {} others", names.size() - 1) : ""));
+    };
+    remark(off, "links that are off are drawn");
+    remark(others, "axes, trails and Alpha of single links are not drawn");
+  }
+
+  // Of efforts.
+  void NameRingsWithoutRobots() {
+    for (const auto& [display, called] : rings_) {
+      const std::string name = TextOf(display, "Robot Description", "robot_description");
+      const bool is_shown = std::any_of(
+          picture_.robots.begin(), picture_.robots.end(), [&](const RvizPicture::Robot& robot) {
+            return robot.option.substr(0, robot.option.find_first_of("@(")) == "ros:" + name;
+          });
+      if (is_shown) continue;
+      Remark(display, called +
+                          ": rings are drawn about joints of robots that are shown, and no "
+                          "RobotModel that is on has " +
+                          Quoted(name));
+    }
   }
 
   void ReadRobotModel(const YAML::Node& display, const std::string& called) {
@@ -227,7 +264,11 @@ class RvizReader {
   void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,
                  const std::string& style) {
     const bool is_marker = std::string_view(member) == "Marker Topic";
-    std::string name = TextOf(display, member, "");
+    const bool is_array = TextOf(display, "Class", "") == "rviz/MarkerArray";
+    std::string name = TextOf(display, member,
+                              !is_marker ? ""
+                              : is_array ? "visualization_marker_array"
+                                         : "visualization_marker");
     const bool is_depth = std::string_view(member) == "Depth Map Topic";
     const char* const hint = is_depth ? "Depth Map Transport Hint" : "Transport Hint";
     const std::string transport = TextOf(display, hint, "raw");
@@ -295,16 +336,18 @@ class RvizReader {
 
   void ReadAxes(const YAML::Node& display, const std::string& called) {
     const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
-    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
-    const std::string frame = is_fixed ? "" : saved;
-    if (!is_fixed && !IsFrameName(frame)) {
+    const std::string frame = saved == "<Fixed Frame>" ? FixedFrame() : saved;
+    if (!frame.empty() && !IsFrameName(frame)) {
       Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
       return;
     }
     const auto metres = [&](const char* property, double usual) {
-      return options::NumberText(
-          rviz::NumberOf(display, property, usual, kSmallestShown, kLargestShown));
+      const rviz::Limit limit =
+          rviz::LimitOf(display, property, usual, kSmallestShown, kLargestShown);
+      if (!limit.remark.empty()) Remark(display, called + ": " + limit.remark);
+      return options::NumberText(limit.value);
     };
+    if (BoolOf(display, "Show Trail", false)) Remark(display, called + ": it has no trail");
     std::string style = "(size=" + metres("Length", 1) + ",width=" + metres("Radius", 0.1);
     const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
     if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
@@ -312,7 +355,16 @@ class RvizReader {
         {kAxesOfFrame + frame, style + ")", Shown(called), false, LineOf(display)});
   }
 
+  // "": that of the scene; so is RViz's usual one, which need not be there.
+  std::string FixedFrame() const {
+    return picture_.fixed_frame == "map" ? "" : picture_.fixed_frame;
+  }
+
   void ReadFrames(const YAML::Node& display, const std::string& called) {
+    for (const char* const filter : {"Filter (whitelist)", "Filter (blacklist)"}) {
+      if (TextOf(display, filter, "").empty()) continue;
+      Remark(display, called + ": " + filter + " is not taken: all frames are drawn");
+    }
     constexpr double kLength = 0.2;  // m, of an axis of the scale 1
     const auto number = [&](const char* property, double usual, double least, double most) {
       return rviz::NumberOf(display, property, usual, least, most);
@@ -354,7 +406,16 @@ class RvizReader {
     return names;
   }
 
-  // "(without=a|b)": those of other nodes; ours are parts of the scene.
+  // As RViz does, a display of single markers hears those of "<topic>_array", too.
+  std::string MarkerStyleOf(const YAML::Node& display, const std::string& kind,
+                            const std::string& called) {
+    const std::string hidden = HiddenNamespaces(display, called);
+    std::string items = kind == "rviz/Marker" ? "array=on" : "";
+    if (!hidden.empty()) items += (items.empty() ? "without=" : ",without=") + hidden;
+    return items.empty() ? items : "(" + items + ")";
+  }
+
+  // "a|b": those of other nodes; ours are parts of the scene.
   std::string HiddenNamespaces(const YAML::Node& display, const std::string& called) {
     const YAML::Node namespaces = Member(display, "Namespaces");
     std::string names;
@@ -369,7 +430,7 @@ class RvizReader {
         Remark(display, called + ": the namespace " + Quoted(name) + " is not left out");
       }
     }
-    return names.empty() ? names : "(without=" + names + ")";
+    return names;
   }
 
   // Parts are drawn that some display shows.
@@ -403,10 +464,17 @@ class RvizReader {
     RefuseOther(place, TextOf(current, "Class", ""));
     const rviz::View view = rviz::ViewOf(current, height_px_);
     if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
+    if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, kFarthest) > kNearest) {
+      Remark(place, "Near Clip Distance is not taken: what is nearer is drawn, too");
+    }
     const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
     const std::string kind = TextOf(current, "Class", "");
     picture_.target.line = LineOf(place);
-    if (target != "<Fixed Frame>" && target != picture_.fixed_frame) picture_.target.frame = target;
+    // RViz has nothing of a view that it cannot load.
+    const bool is_loaded = view.why_not_as_saved.empty();
+    if (is_loaded && target != "<Fixed Frame>" && target != picture_.fixed_frame) {
+      picture_.target.frame = target;
+    }
     if (kind == "rviz/ThirdPersonFollower") picture_.target.turn = ":heading";
     if (kind == "rviz/FrameAligned") picture_.target.turn = ":pose";
     const render::Camera& camera = view.camera;
@@ -426,12 +494,18 @@ class RvizReader {
       return fmt::format("{},{},{}", options::NumberText(p.x()), options::NumberText(p.y()),
                          options::NumberText(p.z()));
     };
-    Set("camera", point(camera.position) + ":" + point(camera.target) + ":" + point(camera.up),
-        line);
     double fov = camera.vertical_fov_rad;
     if (camera.is_orthographic()) {
+      // As far away as a field of view from 1° to 150° has this height.
+      const double half = camera.ortho_height_m / 2;
+      const double distance =
+          std::clamp((camera.position - camera.target).norm(), half / std::tan(75 * M_PI / 180),
+                     half / std::tan(0.5 * M_PI / 180));
+      camera.position = camera.target - distance * ahead.normalized();
       fov = 2 * std::atan2(0.5 * camera.ortho_height_m, (camera.position - camera.target).norm());
     }
+    Set("camera", point(camera.position) + ":" + point(camera.target) + ":" + point(camera.up),
+        line);
     Set("fov", options::NumberText(std::clamp(fov * 180 / M_PI, 1.0, 150.0)), line);
     Set("projection", camera.is_orthographic() ? "orthographic" : "perspective", line);
   }
@@ -456,7 +530,8 @@ class RvizReader {
   bool has_handles_ = true;  // of interactive markers
   bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
   std::set<std::string> shown_parts_;
-  std::vector<std::pair<YAML::Node, std::string>> cameras_;  // displays, and what they are called
+  // Displays, and what they are called.
+  std::vector<std::pair<YAML::Node, std::string>> cameras_, rings_;
 };
 
 template <class Load>

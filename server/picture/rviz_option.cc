@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/starts_with.h"
 #include "core/system/utf8.h"
 #include "server/options/ros_names.h"
 #include "server/picture/rviz_file.h"
@@ -47,11 +48,21 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
     list.Set(*option, option->name, {"", file + ": ", texts}, Channel::kFile);
     return;
   }
-  // The first model is that of the people.
-  for (std::size_t i = 1; i < robots.size(); ++i) {
+  // The first model is that of the people, whose frames have no TF Prefix.
+  const auto people = std::find_if(robots.begin(), robots.end(), [](const auto& robot) {
+    return robot.option.find("@tf:") == std::string::npos;
+  });
+  for (auto robot = robots.begin(); robot != robots.end(); ++robot) {
+    if (robot == people) continue;
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
-                 robots[i].line, robots[i].display);
+                 robot->line, robot->display);
   }
+}
+
+// Of a topic that is shown in two ways, both are.
+std::string NameOf(const RvizPicture::Topic& topic) {
+  const std::string name = StartsWith(topic.name, "/") ? topic.name.substr(1) : topic.name;
+  return topic.is_every_frame ? name : name + topic.style;
 }
 
 // Shown where there are topics; otherwise they are named.
@@ -59,7 +70,8 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
                  options::OptionList& list) {
   options::Option* const option = list.Find("marker_topics");
   const bool is_possible = option != nullptr && HasTopics(list);
-  std::vector<std::string> names, items;
+  std::vector<std::string> names;
+  std::vector<std::string> items = {kNoOtherTopics};  // RViz hears what its displays name
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
@@ -72,17 +84,17 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
         spdlog::warn("{}{} is not drawn: the source has no topics (a bag has, and serve with ROS)",
                      place, topic.display);
       }
-    } else if (std::find(names.begin(), names.end(), topic.name) != names.end()) {
-      continue;
+    } else if (std::find(names.begin(), names.end(), NameOf(topic)) != names.end()) {
+      continue;  // the same again
     } else if (names.size() == kMostShownTopics) {
       spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display,
                    kMostShownTopics);
     } else {
-      names.push_back(topic.name);
+      names.push_back(NameOf(topic));
       items.push_back(topic.name + topic.style);
     }
   }
-  if (items.empty() || option == nullptr || option->channel != Channel::kDefault) return;
+  if (!is_possible || option->channel != Channel::kDefault) return;
   list.Set(*option, option->name, {fmt::format("{}", fmt::join(items, ",")), file + ": "},
            Channel::kFile);
 }
@@ -157,12 +169,13 @@ class Frames {
     if (picture_.fixed_frame == kUsual) return;
     const std::string what =
         is_in_fixed ? "the camera stands in it, the floor is that of" : "the scene is drawn in";
-    const std::string then = is_of_source_ ? ", the frame of its source"
+    const std::string frame = is_of_source_ ? "its source's own frame" : "'" + ours_ + "'";
+    const std::string then = is_of_source_ ? ""
                              : is_in_fixed
                                  ? ""
                                  : "; if the people are in that frame, give --reference_frame";
-    spdlog::warn("{}:{}: Fixed Frame {}: {} '{}'{}", file_, picture_.fixed_frame_line,
-                 Quoted(picture_.fixed_frame), what, ours_, then);
+    spdlog::warn("{}:{}: Fixed Frame {}: {} {}{}", file_, picture_.fixed_frame_line,
+                 Quoted(picture_.fixed_frame), what, frame, then);
   }
 
   const std::string& file_;

@@ -65,14 +65,12 @@ constexpr ArrowProperties kArrowDisplays[] = {
     {"rviz/TwistStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"},
     {"rviz/AccelStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"}};
 
-// Of any of them: what makes a difference if it is not as usual.
+// Of any of them: what makes a difference if it is on.
 struct Untaken {
   const char* property;
-  const char* usual;
   const char* otherwise;
 };
-constexpr Untaken kUntaken[] = {
-    {"Draw Behind", "false", "it is drawn in front of what is below it"}};
+constexpr Untaken kUntaken[] = {{"Draw Behind", "it is drawn in front of what is below it"}};
 constexpr const char* kKeepingDisplay = "rviz/Odometry";
 constexpr const char* kHistories[] = {"History Length", "Buffer Length"};  // of other displays
 
@@ -88,7 +86,9 @@ class StyleReader {
   StyleReader(const YAML::Node& display, const std::string& kind)
       : display_(display), kind_(kind), has_(*Find(kind)) {
     const YAML::Node below = Member(display, "Shape");
-    properties_ = below.IsDefined() && below.IsMap() ? below : display;
+    properties_ = below.IsDefined() && below.IsMap() ? below
+                  : kind == kKeepingDisplay          ? YAML::Node(YAML::NodeType::Undefined)
+                                                     : display;
   }
 
   TopicStyle Read() {
@@ -109,7 +109,7 @@ class StyleReader {
   void AddLook() {
     if (kind_ == kDepthDisplay) AddDepths();
     AddColor();
-    if (Member(properties_, "Alpha").IsDefined()) {
+    if (HasAlpha() && Member(properties_, "Alpha").IsDefined()) {
       const double alpha = NumberOf(properties_, "Alpha", 1, 0, 1);
       if (alpha < 1) Add("alpha=" + options::NumberText(alpha));
     }
@@ -122,11 +122,25 @@ class StyleReader {
     AddEarlier();
   }
 
+  // RViz does not use that of lines.
+  bool HasAlpha() const {
+    const bool is_flat = TextOf(properties_, "Shape", "Arrow (Flat)") == "Arrow (Flat)";
+    return kind_ != "rviz/Path" && kind_ != "rviz/Polygon" &&
+           !(kind_ == "rviz/PoseArray" && is_flat);
+  }
+
+  // As `property` has it, but within what is drawn, which is said.
+  double Limited(const YAML::Node& node, const char* property, double usual, double least,
+                 double most) {
+    const Limit limit = LimitOf(node, property, usual, least, most);
+    if (!limit.remark.empty()) Remark(limit.remark);
+    return limit.value;
+  }
+
   // RViz does not use its Alpha.
   void AddEffort() {
     const auto number = [&](const char* property, double usual) {
-      return options::NumberText(
-          NumberOf(display_, property, usual, kSmallestShown, kLargestShown));
+      return options::NumberText(Limited(display_, property, usual, kSmallestShown, kLargestShown));
     };
     Add("size=" + number("Scale", 1));
     Add("width=" + number("Width", 0.02));
@@ -187,7 +201,7 @@ class StyleReader {
   void AddTransformer() {
     const std::string transformer = TextOf(display_, "Color Transformer", "");
     if (transformer == "FlatColor") {
-      AddColor("color=", "Color", {1, 1, 1});
+      Add("color=" + ToHex(ColorOf(display_, "Color", {1, 1, 1}).value_or(Rgb{1, 1, 1})));
     } else if (transformer == "AxisColor") {
       AddAxisScale();
     } else if (transformer == "Intensity") {
@@ -242,17 +256,20 @@ class StyleReader {
   void AddShapeAndSize() {
     const std::string shape = has_.shapes == nullptr ? "" : TextOf(properties_, has_.shapes, "");
     double size = 0;
+    const bool are_many = kind_ == "rviz/PoseArray";
     if (shape == "Axes") {
       Add("shape=axes");
-      size = NumberOf(properties_, "Axes Length", 0, 0, kLargestShown);
+      size = Metres(properties_, "Axes Length", 0);
+      AddMetres("width=", properties_, "Axes Radius");
     } else if (shape == "Arrow (3D)") {
       Add("shape=arrows");
-      size = NumberOf(properties_, "Shaft Length", 0.23, 0, kLargestShown) +
-             NumberOf(properties_, "Head Length", 0.07, 0, kLargestShown);
+      size = AddArrowParts(properties_, {0.23, 0.07}, "Shaft Radius", "Head Radius");
+    } else if (!are_many && has_.shapes != nullptr) {
+      size = AddArrowParts(properties_, {1, 0.3}, "Shaft Radius", "Head Radius");
     } else if (has_.only_if == nullptr ||
                TextOf(display_, has_.only_if, has_.usually) != std::string(has_.not_if)) {
       for (const char* const part : has_.sizes) {
-        if (part != nullptr) size += NumberOf(properties_, part, 0, 0, kLargestShown);
+        if (part != nullptr) size += Metres(properties_, part, 0);
       }
     }
     AddPathPoses();
@@ -265,30 +282,58 @@ class StyleReader {
       if (style == "Spheres") Add("shape=spheres");
       if (style == "Boxes") Add("shape=cubes");
     }
-    if (size >= kSmallestShown && !has_own_size_) {
-      Add("size=" + options::NumberText(std::min(size, kLargestShown)));
+    if (size > kLargestShown) {
+      Remark("an arrow of " + options::NumberText(size) + " m is drawn with " +
+             options::NumberText(kLargestShown) + " m");
     }
+    if (size > 0 && !has_own_size_) {
+      Add("size=" + options::NumberText(std::clamp(size, kSmallestShown, kLargestShown)));
+    }
+  }
+
+  double Metres(const YAML::Node& node, const char* property, double usual) {
+    return Limited(node, property, usual, 0, kLargestShown);
+  }
+
+  // Where the file has it.
+  void AddMetres(const char* key, const YAML::Node& node, const char* property) {
+    if (!Member(node, property).IsDefined()) return;
+    Add(key + options::NumberText(Limited(node, property, 0, kSmallestShown, kLargestShown)));
+  }
+
+  // The length of the whole; 0: as usual.
+  double AddArrowParts(const YAML::Node& node, const std::array<double, 2>& usual,
+                       const char* shaft_width, const char* head_width) {
+    AddMetres("shaft_width=", node, shaft_width);
+    AddMetres("head_width=", node, head_width);
+    if (!Member(node, "Shaft Length").IsDefined() && !Member(node, "Head Length").IsDefined()) {
+      return 0;
+    }
+    const double head = Metres(node, "Head Length", usual[1]);
+    Add("head=" + options::NumberText(std::max(head, kSmallestShown)));
+    return Metres(node, "Shaft Length", usual[0]) + head;
   }
 
   // Of a path.
   void AddPathPoses() {
     const std::string poses = TextOf(display_, "Pose Style", "None");
-    const auto metres = [&](const char* property, double usual) {
-      return NumberOf(display_, property, usual, 0, kLargestShown);
-    };
     double length = 0;
     if (poses == "Axes") {
       Add("shape=axes");
-      length = metres("Length", 0.3);
+      length = Metres(display_, "Length", 0.3);
+      if (NumberOf(display_, "Radius", 0.03, 0, kLargestShown) != 0.03) {
+        Remark("Radius is not taken: axes are as wide as the line");
+      }
     } else if (poses == "Arrows") {
       Add("shape=arrows");
-      length = metres("Shaft Length", 0.1) + metres("Head Length", 0.2);
+      length = AddArrowParts(display_, {0.1, 0.2}, "Shaft Diameter", "Head Diameter");
+      if (length == 0) length = 0.3;
       AddColor("pose_color=", "Pose Color", {1, 1.0 / 3, 1});
     } else if (poses != "None") {
       Remark("Pose Style '" + poses + "': poses along the line are not drawn");
     }
-    if (length >= kSmallestShown) {
-      Add("pose_size=" + options::NumberText(std::min(length, kLargestShown)));
+    if (length > 0) {
+      Add("pose_size=" + options::NumberText(std::clamp(length, kSmallestShown, kLargestShown)));
     }
   }
 
@@ -308,8 +353,9 @@ class StyleReader {
   }
 
   void AddCovariance() {
+    if (kind_ != "rviz/PoseWithCovariance" && kind_ != kKeepingDisplay) return;
     const YAML::Node covariance = Member(display_, "Covariance");
-    if (!covariance.IsDefined() || !BoolOf(covariance, "Value", true)) return;
+    if (!BoolOf(covariance, "Value", true)) return;
     const auto add_number = [&](const std::string& key, const YAML::Node& node,
                                 const char* property, double usual, double most) {
       Add(key + "=" + options::NumberText(NumberOf(node, property, usual, 0, most)));
@@ -350,7 +396,7 @@ class StyleReader {
 
   void AddEarlier() {
     const auto number = [&](const char* property, double usual, double most) {
-      return NumberOf(display_, property, usual, 0, most);
+      return Limited(display_, property, usual, 0, most);
     };
     constexpr auto kMostKept = static_cast<double>(kMostKeptMessages);
     if (kind_ == kKeepingDisplay) {
@@ -370,9 +416,8 @@ class StyleReader {
 
   void NameUntaken() {
     for (const Untaken& each : kUntaken) {
-      const std::string value = TextOf(display_, each.property, each.usual);
-      if (value != each.usual) {
-        Remark(std::string(each.property) + " '" + value + "': " + each.otherwise);
+      if (BoolOf(display_, each.property, false)) {
+        Remark(std::string(each.property) + ": " + each.otherwise);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "server/options/text.h"
@@ -77,6 +78,18 @@ double NumberOf(const YAML::Node& map, const std::string& name, double otherwise
   return std::clamp(options::ParseNumber(*text).value_or(0), least, most);
 }
 
+Limit LimitOf(const YAML::Node& map, const std::string& name, double otherwise, double least,
+              double most) {
+  constexpr double kEnd = std::numeric_limits<double>::max();
+  const double saved = NumberOf(map, name, otherwise, -kEnd, kEnd);
+  Limit limit = {std::clamp(saved, least, most), ""};
+  if (saved > 0 && saved != limit.value) {
+    limit.remark = name + " " + options::NumberText(saved) + " is taken as " +
+                   options::NumberText(limit.value);
+  }
+  return limit;
+}
+
 Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name) {
   const YAML::Node value = Member(map, name);
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
@@ -97,7 +110,7 @@ std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const
 }
 
 bool AddHidden(const std::string& name, std::string& names) {
-  if (name.empty() || name.find_first_of("|,()=") != std::string::npos) return false;
+  if (name.empty() || name.find_first_of("|,;()=") != std::string::npos) return false;
   names += (names.empty() ? "" : "|") + name;
   return true;
 }

@@ -21,6 +21,14 @@ bool BoolOf(const YAML::Node& map, const std::string& name, bool otherwise);
 /// 0 for what is no number, within `least` and `most`.
 double NumberOf(const YAML::Node& map, const std::string& name, double otherwise, double least,
                 double most);
+/// The same. `remark`, unless a number is as the map has it: "Length 50 is taken as 10"; a number
+/// below 0 is within no limits, and needs none.
+struct Limit {
+  double value = 0;
+  std::string remark;
+};
+Limit LimitOf(const YAML::Node& map, const std::string& name, double otherwise, double least,
+              double most);
 /// 0 unless X, Y and Z are numbers.
 Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name);
 /// "r; g; b", each from 0 to 255, or #rrggbb; nullopt: neither.

@@ -70,13 +70,15 @@ Camera FirstPerson(const YAML::Node& view) {
 }
 
 Camera TopDown(const YAML::Node& view, int height_px) {
-  const double scale = std::max(1e-3, std::abs(NumberOf(view, "Scale", 10, -kMost, kMost)));
+  const double saved = NumberOf(view, "Scale", 10, -kMost, kMost);
+  const double scale = std::max(1e-3, std::abs(saved));
+  const double up = saved < 0 ? -1 : 1;  // RViz then turns the picture by half a turn
   const double x = NumberOf(view, "X", 0, -kMost, kMost), y = NumberOf(view, "Y", 0, -kMost, kMost);
   const double angle = NumberOf(view, "Angle", 0, -kMost, kMost);
   Camera camera;
   camera.position = {x, y, kOrthoHeight};
   camera.target = {x, y, 0};
-  camera.up = {-std::sin(angle), std::cos(angle), 0};
+  camera.up = {-up * std::sin(angle), up * std::cos(angle), 0};
   camera.ortho_height_m = height_px / scale;
   return camera;
 }

@@ -424,9 +424,9 @@ void MasterRegistration::ReadRobots() {
 
 // Once: a name may be mistyped.
 void MasterRegistration::WarnOfMissingTopics() {
-  constexpr std::int64_t kPatienceNanos = 5'000'000'000;
+  constexpr std::int64_t kTopicPatienceNanos = 5'000'000'000;
   if (!wiring_.markers || has_looked_for_topics_) return;
-  if (markers_.empty() || MonotonicNanos() - markers_since_nanos_ < kPatienceNanos) return;
+  if (markers_.empty() || MonotonicNanos() - markers_since_nanos_ < kTopicPatienceNanos) return;
   has_looked_for_topics_ = true;
   std::set<std::string> missing;
   for (const ShownTopic& shown : wiring_.markers->inbox()->topics()) {

@@ -13,7 +13,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::milliseconds kPatience(500);  // for each node
+constexpr std::chrono::milliseconds kAnswerPatience(500);  // for each node
 constexpr char kPublished[] = "/published/reference_frame";
 
 XmlRpcValue Ask(const char* method, const XmlRpcValue& arguments) {
@@ -83,7 +83,7 @@ std::vector<RunningNode> FindRunningNodes() {
                          {}};
     if (found.reference_frame.empty()) continue;
     found.people = PeopleOf(published, topics);
-    if (!found.people.empty() && DoesNodeAnswer(node, kPatience)) nodes.push_back(found);
+    if (!found.people.empty() && DoesNodeAnswer(node, kAnswerPatience)) nodes.push_back(found);
   }
   return nodes;
 }

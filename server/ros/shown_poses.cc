@@ -1,5 +1,6 @@
 // Poses, alone, in an array and along a path: as arrows or axes.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -39,6 +40,14 @@ void AddAxes(const geometry_msgs::Pose& pose, double length, double width, const
     lines.points.push_back(PointAt(at + axes.col(i)));
     lines.colors.insert(lines.colors.end(), 2, In(translucent, ColorOfAxis(i)));
   }
+}
+
+ArrowShape ShapeOf(const ArrowShape& usual, double length, const ArrowStyle& style) {
+  ArrowShape shape = usual;
+  if (style.head_m) shape.shaft = std::max(0.0, 1 - *style.head_m / length);
+  if (style.shaft_width_m) shape.shaft_diameter = *style.shaft_width_m / length;
+  if (style.head_width_m) shape.head_diameter = *style.head_width_m / length;
+  return shape;
 }
 
 // Triangles: of the shaft and its end, of the head and its base.
@@ -104,17 +113,18 @@ ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose&
   if (style.has_axes) {
     const double length = style.size_m.value_or(1);
     Marker lines = MarkerOf(header, 0, Marker::LINE_LIST, Color(255, 255, 255));
-    AddAxes(pose, length, 0.1 * length, style, lines);
+    AddAxes(pose, length, style.width_m.value_or(0.1 * length), style, lines);
     return {lines};
   }
   constexpr double kLength = 1.3;
   const double length = style.size_m.value_or(kLength), share = length / kLength;
+  const ArrowStyle& shape = style.arrow;
   Marker arrow = MarkerOf(header, 0, Marker::ARROW, In(style, Color(255, 25, 0)));
   arrow.pose = pose;
   arrow.points = {PointAt(0, 0, 0), PointAt(length, 0, 0)};
-  arrow.scale.x = 0.05 * share;  // RViz's "radius" is a diameter
-  arrow.scale.y = 0.1 * share;
-  arrow.scale.z = 0.3 * share;
+  arrow.scale.x = shape.shaft_width_m.value_or(0.05 * share);  // RViz's "radius" is a diameter
+  arrow.scale.y = shape.head_width_m.value_or(0.1 * share);
+  arrow.scale.z = shape.head_m.value_or(0.3 * share);
   return {arrow};
 }
 
@@ -149,16 +159,15 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const Sho
   const std_msgs::ColorRGBA color = In(style, Color(255, 25, 0));
   if (style.has_arrows && message.poses.size() <= kMaxMarkerPoints / kPointsOfArrow) {
     Marker arrows = TrianglesOf(message.header, 0, color);
-    for (const geometry_msgs::Pose& pose : message.poses) {
-      AddArrow(pose, length, kArrowOfArray, arrows);
-    }
+    const ArrowShape shape = ShapeOf(kArrowOfArray, length, style.arrow);
+    for (const geometry_msgs::Pose& pose : message.poses) AddArrow(pose, length, shape, arrows);
     return OneOrNone(std::move(arrows));
   }
   Marker lines = MarkerOf(message.header, 0, Marker::LINE_LIST, color);
   lines.scale.x = 0.006;
   for (const geometry_msgs::Pose& pose : message.poses) {
     if (style.has_axes) {
-      AddAxes(pose, length, length / 30, style, lines);
+      AddAxes(pose, length, style.width_m.value_or(length / 30), style, lines);
     } else {
       AddFlatArrow(pose, length, lines);
     }
@@ -184,8 +193,9 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& s
   ShownStyle of_poses = style;
   of_poses.color = style.poses.color;
   Marker arrows = TrianglesOf(message.header, 1, In(of_poses, Color(255, 85, 255)));
+  const ArrowShape shape = ShapeOf(kArrowOfPath, length, style.arrow);
   for (const geometry_msgs::PoseStamped& each : message.poses) {
-    AddArrow(each.pose, length, kArrowOfPath, arrows);
+    AddArrow(each.pose, length, shape, arrows);
   }
   markers.push_back(OneOrNone(std::move(arrows)).front());
   return markers;

@@ -151,6 +151,7 @@ std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown) {
     all.push_back({CalibrationTopicOf(shown.name)});
   }
   if (!camera.color_topic.empty()) all.push_back({camera.color_topic, true});
+  if (shown.style.has_array) all.push_back({shown.name + "_array"});
   if (shown.style.has_updates) all.push_back({shown.name + "_updates"});
   return all;
 }

@@ -135,7 +135,7 @@ std::shared_ptr<const SceneMarker> RandomScenes::Marker(int id) {
   constexpr MarkerType kTypes[] = {MarkerType::kCube, MarkerType::kSphere, MarkerType::kCylinder,
                                    MarkerType::kText};
   marker.type = kTypes[Below(4)];
-  marker.text = "marker";
+  if (marker.type == MarkerType::kText) marker.text = "marker";
   marker.pose.position = Place() + Vector3d(0, 0, Uniform(0, 2));
   const double size = Chance(0.03) ? 100 : Uniform(0.02, 0.5);
   marker.scale = Vector3d(Uniform(0.1, 1), Uniform(0.1, 1), Uniform(0.1, 1)) * size;

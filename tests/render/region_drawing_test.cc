@@ -100,7 +100,9 @@ std::shared_ptr<const SceneMarker> MarkerOf(MarkerType type, const Eigen::Vector
                                             const Eigen::Vector3d& position) {
   SceneMarker marker;
   marker.type = type;
-  marker.text = "a label that runs out of the picture on both of its sides, and on";
+  if (type == MarkerType::kText) {
+    marker.text = "a label that runs out of the picture on both of its sides, and on";
+  }
   marker.scale = scale;
   marker.pose.position = position;
   marker.color = {0.2, 0.5, 0.9, 0.6};

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/system/starts_with.h"
+
 namespace kinescope::app {
 namespace {
 
@@ -26,6 +28,13 @@ void MissingPoseWarning::OnCounters(const SourceCounters& counters, const std::s
   if (!since_nanos_) since_nanos_ = now_nanos;
   if (now_nanos - *since_nanos_ < kPatienceNanos) return;
   is_done_ = true;
+  if (StartsWith(source, "ros:")) {
+    spdlog::warn(
+        "{} messages from {}, but no person among their frames; expected 23 segments, such as "
+        "skeleton_pelvis. For details run `kinescope inspect {}`",
+        counters.datagrams, source, source);
+    return;
+  }
   spdlog::warn(
       "{} datagrams from {}, but no complete pose: {}. For details run `kinescope inspect {}`",
       counters.datagrams, source, MostFrequentRejection(counters), source);

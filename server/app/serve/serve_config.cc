@@ -249,7 +249,9 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
     (is_of_bag ? config.source.bag.robots : of_graph).push_back(std::move(robot));
   }
   if (config.ros) {
-    config.ros->shown.topics = *options.marker_topics;
+    for (const ShownTopic& topic : *options.marker_topics) {
+      if (!topic.leaves_out_others) config.ros->shown.topics.push_back(topic);
+    }
     config.ros->shown.robots = std::move(of_graph);
     if (!is_bag) config.ros->shown.camera_frame = camera_frame;
     return;

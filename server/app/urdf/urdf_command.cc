@@ -11,6 +11,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "server/app/commands.h"
@@ -107,10 +108,12 @@ Model LiveModel(const std::string& url, const SceneOptions& options) {
       if (described.Has(person.character)) return person.model;
     }
   }
+  const char* const way_out =
+      StartsWith(url, "ros:") ? "start the bridge of a person" : "switch on Scaling Data in MVN";
   throw SourceError(
       fmt::format("source '{}': no person with poses and segment lengths received within {} s; "
-                  "switch on Scaling Data in MVN, and check the stream with `kinescope inspect`",
-                  url, kPatienceSecs));
+                  "{}, and check the stream with `kinescope inspect`",
+                  url, kPatienceSecs, way_out));
 }
 
 // Without a source, the default body.

@@ -42,7 +42,7 @@ bool HasJoints(const BagConnection& connection) {
 std::vector<ShownTopic> WithSlashes(const std::vector<ShownTopic>& topics) {
   std::vector<ShownTopic> all;
   for (const ShownTopic& topic : topics) {
-    if (topic.is_frame) continue;
+    if (topic.is_frame || topic.leaves_out_others) continue;
     all.push_back({WithSlash(topic.name), topic.style});
     std::string& colors = all.back().style.camera.color_topic;
     if (!colors.empty()) colors = WithSlash(colors);
@@ -67,6 +67,7 @@ BagSurroundings::BagSurroundings(const GraphView& view)
     }
   }
   for (const ShownTopic& topic : view.topics) {
+    leaves_out_others_ = leaves_out_others_ || topic.leaves_out_others;
     if (!topic.is_frame) continue;
     if (topic.is_every_frame()) {
       frames_.emplace(topic.style, kPlaceEveryNanos);
@@ -83,8 +84,10 @@ BagSurroundings::BagSurroundings(const GraphView& view)
 }
 
 bool BagSurroundings::IsUsed(const BagConnection& connection) const {
-  if (IsOne(connection) || IsArray(connection)) return true;
   const std::string topic = WithSlash(connection.topic);
+  if (IsOne(connection) || IsArray(connection)) {
+    return !leaves_out_others_ || heard_.count(topic) != 0;
+  }
   if (HasJoints(connection) && std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
         return robot.joint_states == topic;
       })) {

@@ -86,6 +86,7 @@ class BagSurroundings {
   const std::vector<ShownTopic> shown_topics_;  // their names have slashes
   /// Places in shown_topics_, by the name of a topic that is heard for them.
   std::multimap<std::string, Heard> heard_;
+  bool leaves_out_others_ = false;  // markers of topics that are not named
   std::vector<Robot> robots_;
   bool has_new_robots_ = true;
   std::optional<std::int64_t> placed_nanos_;

@@ -243,7 +243,7 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[2].style, "");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
   EXPECT_EQ(picture.topics[3].name, "/odom");
-  EXPECT_EQ(picture.topics[3].style, "(keep=100,step=0.1,turn=0.1)");
+  EXPECT_THAT(picture.topics[3].style, HasSubstr(",keep=100,step=0.1,turn=0.1)"));
 }
 
 TEST(RvizFile, HasColoursOpacityAndSizesOfDisplays) {
@@ -287,18 +287,19 @@ Visualization Manager:
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
                   "(shape=axes,pose_size=0.3,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)",
                   "(pixels=5)", "(by=z)", "(color=#010203,force=2.6,torque=2.6,width=0.5)",
-                  "(size=0.5)", "(size=10)",
-                  "(color=#0000ff,alpha=0.5,size=0.75,covariance=1,covariance_alpha=0.3,covariance_"
+                  "(size=0.5)", "(head=8,size=10)",
+                  "(color=#0000ff,alpha=0.5,head=0.25,size=0.75,covariance=1,covariance_alpha=0.3,"
+                  "covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
                   "(alpha=0.25,scheme=costmap,updates=on)", "(updates=on)", "(color=#19ff00)",
                   "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
-  for (const char* remark :
-       {"Draw Behind 'true': it is drawn in", "Color Scheme 'raw' is drawn as 'map'",
-        "Use Fixed Frame 'false': the axis is that of the scene",
-        "Channel Name 'my,ring' cannot be taken; its points are white",
-        "Color Transformer 'MONO8' is not taken"}) {
+  for (const char* remark : {"Draw Behind: it is drawn in", "an arrow of 17 m is drawn with 10 m",
+                             "Color Scheme 'raw' is drawn as 'map'",
+                             "Use Fixed Frame 'false': the axis is that of the scene",
+                             "Channel Name 'my,ring' cannot be taken; its points are white",
+                             "Color Transformer 'MONO8' is not taken"}) {
     EXPECT_THAT(picture.remarks, Contains(HasSubstr(remark)));
   }
   ShownTopicsValue value;
@@ -515,8 +516,8 @@ Visualization Manager:
   ASSERT_EQ(topics.size(), 4u);
   EXPECT_EQ(topics[0].name + topics[0].style, "/goals/update(names=off,shape=axes,alpha=1)");
   EXPECT_EQ(topics[1].name + topics[1].style, "/plain/update");
-  EXPECT_EQ(topics[2].style, "(shape=arrows,size=0.75)");
-  EXPECT_EQ(topics[3].style, "(shape=arrows,pose_color=#ff0000,pose_size=0.4)");
+  EXPECT_EQ(topics[2].style, "(shape=arrows,head=0.25,size=0.75)");
+  EXPECT_EQ(topics[3].style, "(shape=arrows,head=0.3,pose_color=#ff0000,pose_size=0.4)");
   const auto without = topics_of("{Class: rviz/MoveCamera}, {Class: rviz/Interact}");
   EXPECT_EQ(without.at(1).style, "(handles=off)") << "Interact is not the active tool";
   ShownTopicsValue value;
@@ -551,6 +552,14 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
       {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},
       {"Class: rviz/RobotModel, Links: {a: {Value: false}, b: {Value: true}, c: {Value: false}}",
        "links that are off are drawn: a and 1 others"},
+      {"Class: rviz/RobotModel, Links: {a: {Show Axes: true}, b: {Alpha: 0.5}}",
+       "axes, trails and Alpha of single links are not drawn: a and 1 others"},
+      {"Class: rviz/Grid, Plane Cell Count: 80", "size and number of its cells are not taken"},
+      {"Class: rviz/TF, Filter (whitelist): arm", "Filter (whitelist) is not taken"},
+      {"Class: rviz/Axes, Show Trail: true", "it has no trail"},
+      {"Class: rviz/Map, Topic: /a, Draw Behind: 1", "Draw Behind: it is drawn in front"},
+      {"Class: rviz/Effort, Topic: /a", "rings are drawn about joints of robots that are shown"},
+      {"Class: rviz/Axes, Length: 50", "Length 50 is taken as 10"},
       {"Class: rviz/Image, Image Topic: /a, Normalize Range: false", "Normalize Range is off"}};
   for (const auto& [display, remark] : cases) {
     EXPECT_THAT(remarks_of(display), Contains(HasSubstr("'A': " + remark))) << display;
@@ -560,6 +569,101 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
         "Class: rviz/RobotModel, Links: {a: {Value: true}, All Links Enabled: true}"}) {
     EXPECT_THAT(remarks_of(plain), Not(Contains(HasSubstr("'A'")))) << plain;
   }
+}
+
+std::vector<RvizPicture::Topic> TopicsOf(const std::string& display) {
+  return ReadText(WithDisplays("    - {Enabled: true, Name: A, " + display + "}\n")).topics;
+}
+
+std::string StyleOf(const std::string& display) { return TopicsOf(display).at(0).style; }
+
+// What RViz 1.14 draws of a file that an older one has saved.
+TEST(RvizFile, HasDefaultsOfRvizForWhatAnOldFileDoesNotSay) {
+  EXPECT_EQ(StyleOf("Class: rviz/Odometry, Topic: /odom, Color: 85; 170; 255, Length: 1"),
+            "(covariance=1,covariance_alpha=0.3,covariance_color=#cc33cc,turn_covariance=1,turn_"
+            "covariance_alpha=0.5,turn_covariance_offset=1,turn_covariance_color=#ffff7f,keep=100,"
+            "step=0.1,turn=0.1)");
+  EXPECT_EQ(StyleOf("Class: rviz/PointCloud2, Topic: /c, Color Transformer: FlatColor"),
+            "(color=#ffffff)");
+  EXPECT_EQ(TopicsOf("Class: rviz/Marker").at(0).name, "visualization_marker");
+  EXPECT_EQ(TopicsOf("Class: rviz/MarkerArray").at(0).name, "visualization_marker_array");
+  EXPECT_TRUE(TopicsOf("Class: rviz/Marker, Marker Topic: \"\"").empty());
+}
+
+TEST(RvizFile, HasMarkersOfTheArrayBesideATopicOfSingleOnes) {
+  EXPECT_EQ(StyleOf("Class: rviz/Marker, Marker Topic: /m, Namespaces: {a: false}"),
+            "(array=on,without=a)");
+  EXPECT_EQ(StyleOf("Class: rviz/MarkerArray, Marker Topic: /m"), "");
+  EXPECT_EQ(StyleOf("Class: rviz/MarkerArray, Marker Topic: /m, Namespaces: {\"a;b\": false}"), "");
+}
+
+TEST(RvizFile, DoesNotUseTheAlphaOfLines) {
+  for (const char* const kind : {"Path", "Polygon", "PoseArray"}) {
+    EXPECT_EQ(StyleOf("Class: rviz/" + std::string(kind) + ", Topic: /a, Alpha: 0"), "") << kind;
+  }
+  EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Alpha: 0.5, Shape: Axes"),
+            "(alpha=0.5,shape=axes)");
+}
+
+TEST(RvizFile, HasThePartsOfArrows) {
+  EXPECT_EQ(StyleOf("Class: rviz/Pose, Topic: /a, Shaft Length: 2, Shaft Radius: 0.1"),
+            "(shaft_width=0.1,head=0.3,size=2.3)");
+  EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Shape: Arrow (3D), Shaft Length: 1, "
+                    "Head Length: 0.07, Head Radius: 0.02"),
+            "(shape=arrows,head_width=0.02,head=0.07,size=1.07)");
+  EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Shape: Axes, Axes Radius: 0.02"),
+            "(shape=axes,width=0.02)");
+  ShownTopicsValue value;
+  value.Parse("/a(shaft_width=0.1,head=0.3,head_width=0.2,array=on),-*");
+  EXPECT_EQ((*value)[0].style.arrow.head_m, 0.3);
+  EXPECT_EQ((*value)[0].style.arrow.shaft_width_m, 0.1);
+  EXPECT_EQ((*value)[0].style.arrow.head_width_m, 0.2);
+  EXPECT_TRUE((*value)[0].style.has_array);
+  EXPECT_TRUE((*value)[1].leaves_out_others);
+}
+
+TEST(RvizFile, HasAxesOfItsFixedFrame) {
+  const std::string axes =
+      "    - {Class: rviz/Axes, Enabled: true, Reference Frame: <Fixed Frame>}\n";
+  const auto name_in = [&](const std::string& frame) {
+    return ReadText(WithDisplays(axes, "  Global Options: {Fixed Frame: " + frame + "}\n"))
+        .topics.at(0)
+        .name;
+  };
+  EXPECT_EQ(name_in("odom"), "tf:odom");
+  EXPECT_EQ(name_in("map"), "tf:") << "RViz begins with it, and it need not be there";
+}
+
+TEST(RvizFile, SaysWhatIsLimited) {
+  const std::string cloud = "    - {Enabled: true, Name: A, Class: rviz/PointCloud2, Topic: /c, ";
+  const RvizPicture picture =
+      ReadText(WithDisplays(cloud + "Decay Time: 1000, Size (m): 0.0005}\n"));
+  EXPECT_EQ(picture.topics.at(0).style, "(size=0.001,decay=600)");
+  EXPECT_THAT(picture.remarks, Contains(HasSubstr("'A': Decay Time 1000 is taken as 600")));
+}
+
+TEST(RvizFile, ShowsNothingWhereAllDisplaysAreOff) {
+  const RvizPicture picture = ReadText(
+      WithDisplays("    - {Class: rviz/Path, Enabled: true, Topic: /a}\n", "  Enabled: false\n"));
+  EXPECT_TRUE(picture.topics.empty());
+}
+
+TEST(RvizFile, FollowsNothingInAViewThatRvizCannotLoad) {
+  EXPECT_EQ(ReadText(WithView("      {Target Frame: base_link}\n")).target.frame, "");
+  EXPECT_EQ(ReadText(WithView("      {Class: rviz/Orbit, Target Frame: base_link}\n")).target.frame,
+            "base_link");
+}
+
+// A pixel of a view from above is 0.5 mm, or 1 m.
+TEST(RvizFile, HasTheScaleOfAnyViewFromAbove) {
+  for (const double scale : {2000.0, 1.0}) {
+    const render::Camera camera =
+        CameraOf("      {Class: rviz/TopDownOrtho, Scale: " + std::to_string(scale) + "}\n");
+    EXPECT_NEAR(camera.ortho_height_m, kPictureHeight / scale, 1e-3 * kPictureHeight / scale);
+    EXPECT_GT(camera.position.z(), 1);
+  }
+  const render::Camera turned = CameraOf("      {Class: rviz/TopDownOrtho, Scale: -10}\n");
+  EXPECT_NEAR(turned.up.y(), -1, 1e-9);
 }
 
 TEST(RvizFile, HasTheAlphaOfTheFirstModelForPeople) {
@@ -622,7 +726,7 @@ Visualization Manager:
   std::vector<std::string> items;
   for (const RvizPicture::Topic& topic : picture.topics) items.push_back(topic.name + topic.style);
   EXPECT_THAT(items, ElementsAre("tf:base_link(size=2,width=0.5,alpha=0.5)",
-                                 "tf:(size=1,width=0.1)", "tf:(size=10,width=0.1)"));
+                                 "tf:odom(size=1,width=0.1)", "tf:odom(size=10,width=0.1)"));
   EXPECT_THAT(picture.remarks,
               Contains(HasSubstr("'Bad' is not drawn: 'a b' is no name of a frame")));
   ShownTopicsValue value;
@@ -630,7 +734,7 @@ Visualization Manager:
   EXPECT_TRUE((*value)[0].is_frame);
   EXPECT_EQ((*value)[0].name, "base_link");
   EXPECT_EQ((*value)[0].style.width_m, 0.5);
-  EXPECT_EQ((*value)[1].name, "");
+  EXPECT_EQ((*value)[1].name, "odom");
   EXPECT_FALSE((*value)[2].is_frame);
 }
 

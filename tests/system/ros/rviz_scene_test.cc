@@ -65,7 +65,7 @@ constexpr char kThingsOfConfig[] =
     - {Class: rviz/PointCloud2, Name: Cloud, Enabled: true, Value: true, Topic: /cloud, Alpha: 1,
        Style: Boxes, Size (m): 0.03, Color Transformer: FlatColor, Color: 230; 30; 220}
     - {Class: rviz/PointCloud2, Name: Heights, Enabled: true, Value: true, Topic: /heights, Alpha: 1,
-       Style: Flat Squares, Size (m): 0.03, Color Transformer: AxisColor, Axis: Z, Use Fixed Frame: true,
+       Style: Points, Size (Pixels): 4, Color Transformer: AxisColor, Axis: Z, Use Fixed Frame: true,
        Autocompute Value Bounds: {Max Value: 5.6, Min Value: -4.4, Value: false}}
     - {Class: rviz/Temperature, Name: Effort, Enabled: true, Value: true, Topic: /effort, Alpha: 1,
        Style: Spheres, Size (m): 0.3, Color Transformer: Intensity, Channel Name: temperature,

@@ -30,6 +30,17 @@ TEST(MissingPoseWarning, ReportsTheMostFrequentReasonOnceAfterTwoSeconds) {
             "details run `kinescope inspect udp://:9763`\n");
 }
 
+TEST(MissingPoseWarning, SpeaksOfMessagesOfAGraph) {
+  const testing::CapturedLog log;
+  MissingPoseWarning warning;
+  for (int i = 0; i < 3; ++i) {
+    warning.OnCounters(DatagramsWithoutPose(), "ros:/tf", i * kNanosPerSecond);
+  }
+  EXPECT_EQ(log.text(),
+            "warning: 240 messages from ros:/tf, but no person among their frames; expected 23 "
+            "segments, such as skeleton_pelvis. For details run `kinescope inspect ros:/tf`\n");
+}
+
 TEST(CrowdWarning, NamesTheLimitOnce) {
   const testing::CapturedLog log;
   CrowdWarning warning;

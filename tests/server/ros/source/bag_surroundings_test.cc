@@ -30,6 +30,7 @@ namespace kinescope::ros_bridge {
 namespace {
 
 using testing::CapturedLog;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -192,7 +193,23 @@ TEST_F(BagSurroundingsTest, AreEffortsOfJointsOfRobots) {
   EXPECT_EQ(ring.pose.position, Eigen::Vector3d(3, 0, 0));
   EXPECT_NEAR(Eigen::AngleAxisd(ring.pose.orientation).angle(), 0.5, 1e-9);
   EXPECT_EQ(recorded.counters.rejected.at("sensor_msgs/JointState: no such joint"), 1u);
-  EXPECT_EQ(log.text(), "");
+  EXPECT_THAT(log.text(),
+              HasSubstr("/joint_states: not shown: joint states: no robot that is shown "
+                        "has the joint 'of_another'"));
+}
+
+TEST_F(BagSurroundingsTest, AreMarkersOfNamedTopicsAloneIfTold) {
+  const auto write = [](rosbag::Bag& bag) {
+    for (const char* const topic : {"/walls", "/trees"}) {
+      bag.write(topic, TimeOf(kBegin - 2), CubeIn("world", 1));
+    }
+  };
+  GraphView view;
+  view.topics = {{"walls"}};
+  EXPECT_THAT(CountsOf(Read(write, view)), Each(2u));
+  view.topics.push_back({});
+  view.topics.back().leaves_out_others = true;
+  EXPECT_THAT(CountsOf(Read(write, view)), Each(1u));
 }
 
 TEST_F(BagSurroundingsTest, NameOnceTheLinksThatHaveNoFrame) {
