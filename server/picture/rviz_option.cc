@@ -48,14 +48,14 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
     list.Set(*option, option->name, {"", file + ": ", texts}, Channel::kFile);
     return;
   }
-  // The first model is that of the people, whose frames have no TF Prefix.
-  const auto people = std::find_if(robots.begin(), robots.end(), [](const auto& robot) {
-    return robot.option.find("@tf:") == std::string::npos;
-  });
-  for (auto robot = robots.begin(); robot != robots.end(); ++robot) {
-    if (robot == people) continue;
+  // The first model is that of the people.
+  if (robots.front().option.find("@tf:") != std::string::npos) {
+    spdlog::info("{}:{}: {} is taken for the people; if it is a robot, give its URDF as --robot",
+                 file, robots.front().line, robots.front().display);
+  }
+  for (std::size_t i = 1; i < robots.size(); ++i) {
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
-                 robot->line, robot->display);
+                 robots[i].line, robots[i].display);
   }
 }
 
