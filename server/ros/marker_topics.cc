@@ -22,7 +22,7 @@ namespace {
 // Each message may be the only one of its marker, so none should be lost while a sample is
 // processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
-constexpr std::size_t kMostWaitingPoints = 2 * kMaxPointsOfAll, kMostWaitingMessages = 4000;
+constexpr std::size_t kMostWaiting = 2 * kMaxPointsOfAll;  // points
 
 // The page has new markers ten times a second, and the history keeps each list of them.
 constexpr std::int64_t kFramesEveryNanos = 50'000'000;
@@ -50,10 +50,14 @@ std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   return topics;
 }
 
-std::size_t PointsIn(const DecodedMessage& message) {
-  std::size_t count = 0;
-  for (const visualization_msgs::Marker& marker : message.markers) count += marker.points.size();
-  return count;
+// About as its memory: a marker is worth ten points.
+std::size_t WeightOf(const DecodedMessage& message) {
+  constexpr std::size_t kOfMarker = 10;
+  std::size_t weight = kOfMarker;
+  for (const visualization_msgs::Marker& marker : message.markers) {
+    weight += kOfMarker + marker.points.size();
+  }
+  return weight;
 }
 
 }  // namespace
@@ -96,23 +100,21 @@ void MarkerInbox::FinishMessages() {
 // What waits is limited: the thread that reads samples may be slower than this one.
 void MarkerInbox::PassOn() {
   for (DecodedMessage& message : decoder_.Take()) {
-    const std::size_t points = PointsIn(message);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!decoded_.empty() && (decoded_points_ + points > kMostWaitingPoints ||
-                              decoded_.size() >= kMostWaitingMessages)) {
-      message = DecodedMessage{message.topic, message.monotonic_nanos};
-      message.refusal = Refusal{"too fast", "messages come faster than they can be shown"};
-      if (decoded_.size() >= 2 * kMostWaitingMessages) continue;
-    } else {
-      decoded_points_ += points;
+    const std::size_t weight = WeightOf(message);
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (waiting_ > 0 && waiting_ + weight > kMostWaiting) {
+      lock.unlock();
+      Refuse(message.topic, {"too fast", "messages come faster than they can be shown"});
+      continue;
     }
+    waiting_ += weight;
     decoded_.push_back(std::move(message));
   }
 }
 
 // Samples wait meanwhile, so the rest may have to.
 void MarkerInbox::TakeDecoded() {
-  constexpr std::int64_t kMostNanos = 1'000'000;
+  constexpr std::int64_t kMostNanos = 2'000'000;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::move(decoded_.begin(), decoded_.end(), std::back_inserter(taken_));
@@ -120,11 +122,11 @@ void MarkerInbox::TakeDecoded() {
   }
   const std::int64_t began = MonotonicNanos();
   while (!taken_.empty() && MonotonicNanos() - began < kMostNanos) {
-    const std::size_t points = PointsIn(taken_.front());
+    const std::size_t weight = WeightOf(taken_.front());
     Take(taken_.front());
     taken_.pop_front();
     const std::lock_guard<std::mutex> lock(mutex_);
-    decoded_points_ -= points;
+    waiting_ -= weight;
   }
 }
 

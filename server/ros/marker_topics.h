@@ -98,7 +98,7 @@ class MarkerInbox {
 
   mutable std::mutex mutex_;
   std::deque<DecodedMessage> decoded_;             // guarded by mutex_
-  std::size_t decoded_points_ = 0;                 // guarded by mutex_; in decoded_ and taken_
+  std::size_t waiting_ = 0;                        // guarded by mutex_; in decoded_ and taken_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 

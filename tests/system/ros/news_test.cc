@@ -7,16 +7,21 @@
 #include <kinescope/SetHandLoad.h>
 #include <rosgraph_msgs/Log.h>
 #include <std_msgs/String.h>
+#include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "tests/server/http/test_client.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/ros/ros_fixture.h"
+#include "tests/system/run_program.h"
 
 namespace kinescope {
 namespace {
@@ -135,6 +140,37 @@ TEST_F(NewsOverRos, WarnsOfASecondNodeWithTheSameFrames) {
   EXPECT_THAT(WaitForLine(*second, "the node "),
               AllOf(HasSubstr("/one publishes the frames of a person called skeleton"),
                     HasSubstr("--model_name")));
+}
+
+// The master still has its topics and its parameters.
+TEST_F(NewsOverRos, DoesNotCountANodeThatWasKilled) {
+  const auto killed = Start("bridge demo:lift --ros required __name:=one");
+  WaitForParameter("/one/published/reference_frame");
+  const auto config = [&] {
+    return testing::RunProgram({testing::KinescopePath(), "rviz", "--out", folder_ / "a.rviz"});
+  };
+  EXPECT_EQ(config().exit_code, 0);
+  killed->Signal(SIGKILL);
+  killed->WaitForEnd();
+  EXPECT_NE(config().exit_code, 0) << "nothing to see";
+  const auto running = Start("bridge demo:lift --ros required __name:=two");
+  WaitForParameter("/two/published/reference_frame");
+  const testing::ProgramResult only = config();
+  EXPECT_EQ(only.exit_code, 0) << only.out << only.err;
+}
+
+TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
+  ros::Publisher walls = node_->advertise<visualization_msgs::Marker>("/walls", 1, true);
+  visualization_msgs::Marker wall;
+  wall.ns = "walls";
+  wall.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
+  walls.publish(wall);
+  const auto server = Start(
+      "serve demo:lift --ros required --http_port 0 --pictures off --marker_topics /wolls,/walls "
+      "--robot ros:panda");
+  WaitForLine(*server, "/walls: marker walls/0: ");
+  WaitForLine(*server, "nobody publishes /wolls (--marker_topics)");
+  WaitForLine(*server, "/panda: the parameter is not set");
 }
 
 TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {
