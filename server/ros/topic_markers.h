@@ -64,8 +64,8 @@ struct HeardTopic {
 };
 /// The topic itself, and those beside it: of a server of interactive markers, "<name>/update_full"
 /// beside "<name>/update", which has all that it shows; of images, the calibration of their camera
-/// where the scene is drawn over them; of depths, the calibration and the colours; of a map,
-/// "<name>_updates" if the style has it.
+/// where the scene is drawn over them; of depths, the calibration and the colours; if the style has
+/// them, "<name>_array" beside single markers and "<name>_updates" beside a map.
 std::vector<HeardTopic> TopicsHeardFor(const ShownTopic& shown);
 
 /// "geometry_msgs/PointStamped, ..."

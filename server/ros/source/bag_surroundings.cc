@@ -162,14 +162,18 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
     ++counters.ignored["markers of Kinescope"];
     return;
   }
-  const auto number = NumberOf(message.connection->topic, counters);
-  if (!number) return;
   has_markers_ = true;
-  const auto named = heard_.find(WithSlash(message.connection->topic));
-  const ShownStyle style =
-      named == heard_.end() ? ShownStyle() : shown_topics_[named->second.shown].style;
-  const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
-  if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
+  const auto apply = [&](const std::optional<std::size_t>& number, const ShownStyle& style) {
+    if (!number) return;
+    const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
+    if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
+  };
+  const auto [first, last] = heard_.equal_range(WithSlash(message.connection->topic));
+  if (first == last) return apply(NumberOf(message.connection->topic, counters), {});
+  for (auto each = first; each != last; ++each) {
+    const std::size_t shown = each->second.shown;
+    apply(NumberOf(shown, counters), shown_topics_[shown].style);
+  }
 }
 
 void BagSurroundings::Reject(const BagMessage& message, const Refusal& refusal,

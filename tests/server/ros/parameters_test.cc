@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcServer.h>
+#include <xmlrpcpp/XmlRpcServerMethod.h>
 
+#include <atomic>
 #include <future>
+#include <string>
+#include <thread>
 
 #include "core/system/errors.h"
 #include "server/ros/master_client.h"
@@ -24,6 +29,40 @@ using ::testing::Not;
 using testing::Posture;
 using testing::SceneWith;
 using testing::TempFolder;
+
+// The server of a node, which answers that it runs.
+class NodeThatAnswers {
+ public:
+  NodeThatAnswers() {
+    EXPECT_TRUE(server_.bindAndListen(0));
+    thread_ = std::thread([this] {
+      while (!stops_) server_.work(0.05);
+    });
+  }
+  ~NodeThatAnswers() {
+    stops_ = true;
+    thread_.join();
+    server_.shutdown();
+  }
+  NodeThatAnswers(const NodeThatAnswers&) = delete;
+  NodeThatAnswers& operator=(const NodeThatAnswers&) = delete;
+
+  std::string uri() { return "http://127.0.0.1:" + std::to_string(server_.get_port()) + "/"; }
+
+ private:
+  struct GetPid : XmlRpc::XmlRpcServerMethod {
+    explicit GetPid(XmlRpc::XmlRpcServer& server) : XmlRpcServerMethod("getPid", &server) {}
+    void execute(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result) override {
+      result[0] = 1;
+      result[1] = "";
+      result[2] = 4711;
+    }
+  };
+  XmlRpc::XmlRpcServer server_;
+  GetPid get_pid_{server_};
+  std::atomic<bool> stops_ = false;
+  std::thread thread_;
+};
 
 TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOnes) {
   StartMaster();
@@ -189,7 +228,8 @@ TEST_F(RosBridgeWithMaster, LeavesTheDescriptionOfAnotherKinescopeAsItIs) {
   topic[0] = "/suit";
   topic[1] = "/suit/joint_loads";
   topic[2] = "kinescope/JointLoadArray";
-  topic[3] = "http://127.0.0.1:1/";
+  NodeThatAnswers node;
+  topic[3] = node.uri();
   call("setParam", description);
   call("setParam", published);
   XmlRpc::XmlRpcClient suit("127.0.0.1", port_.number());  // by its own name

@@ -210,6 +210,9 @@ TEST_F(BagSurroundingsTest, AreMarkersOfNamedTopicsAloneIfTold) {
   view.topics.push_back({});
   view.topics.back().leaves_out_others = true;
   EXPECT_THAT(CountsOf(Read(write, view)), Each(1u));
+  view.topics.push_back({"/walls"});
+  view.topics.back().style.size_px = 3;
+  EXPECT_THAT(CountsOf(Read(write, view)), Each(2u)) << "shown in two ways";
 }
 
 TEST_F(BagSurroundingsTest, NameOnceTheLinksThatHaveNoFrame) {
