@@ -169,9 +169,11 @@ class Frames {
     if (picture_.fixed_frame == kUsual) return;
     const std::string what =
         is_in_fixed ? "the camera stands in it, the floor is that of" : "the scene is drawn in";
-    const std::string frame = is_of_source_ ? "its source's own frame" : "'" + ours_ + "'";
-    const std::string then = is_of_source_ ? ""
-                             : is_in_fixed
+    // That of a bag is known once it is read.
+    const std::string frame = !is_of_source_     ? "'" + ours_ + "'"
+                              : HasTopics(list_) ? "the frame of the bag"
+                                                 : "'" + ours_ + "', the frame of its source";
+    const std::string then = is_of_source_ || is_in_fixed
                                  ? ""
                                  : "; if the people are in that frame, give --reference_frame";
     spdlog::warn("{}:{}: Fixed Frame {}: {} {}{}", file_, picture_.fixed_frame_line,

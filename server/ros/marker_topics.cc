@@ -220,7 +220,7 @@ std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
     if (found) return found->pose;
   }
   if (bodies_.empty()) {
-    if (const auto found = tf_->Find(reference_frame_, frame, stamp_nanos)) return found;
+    if (auto found = tf_->Find(reference_frame_, frame, stamp_nanos)) return found;
   }
   return FindChainedOf(Robots(), frame);
 }

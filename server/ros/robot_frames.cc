@@ -130,7 +130,7 @@ std::optional<urdf::Pose> RobotFrames::FindChained(const std::string& frame) con
 std::optional<urdf::Pose> FindChainedOf(const std::vector<const RobotFrames*>& robots,
                                         const std::string& frame) {
   for (const RobotFrames* const robot : robots) {
-    if (const auto found = robot->FindChained(frame)) return found;
+    if (auto found = robot->FindChained(frame)) return found;
   }
   return std::nullopt;
 }

@@ -84,7 +84,7 @@ TEST_F(MeshUri, ReportsMissingFilesWithTheSearchedPlacesAndARemedy) {
   const std::string package = Reason("package://arm/a.stl", search);
   EXPECT_NE(package.find("'arm'"), std::string::npos) << package;
   EXPECT_NE(package.find((folder_ / "packages").string()), std::string::npos) << package;
-  EXPECT_NE(package.find("--package_path"), std::string::npos) << package;
+  EXPECT_NE(package.find("ROS_PACKAGE_PATH"), std::string::npos) << package;
   EXPECT_NE(Reason("meshes/none.stl", search).find("No such file"), std::string::npos);
   for (const std::string& uri :
        {std::string(), std::string("package://"), std::string("package://arm"),
