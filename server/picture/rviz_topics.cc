@@ -31,9 +31,9 @@ constexpr ShownProperties OfPoints(const char* kind) {
 }
 constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/PointStamped", "Color", {"Radius"}},
-    {"rviz/Pose", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Shape"},
-    {"rviz/PoseWithCovariance", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Shape"},
-    {"rviz/Odometry", "Color", {"Shaft Length", "Head Length"}, nullptr, "", "", "Value"},
+    {"rviz/Pose", "Color", {}, nullptr, "", "", "Shape"},
+    {"rviz/PoseWithCovariance", "Color", {}, nullptr, "", "", "Shape"},
+    {"rviz/Odometry", "Color", {}, nullptr, "", "", "Value"},
     {"rviz/PoseArray", "Color", {"Arrow Length"}, nullptr, "", "", "Shape"},
     {"rviz/Path", "Color", {"Line Width"}, "Line Style", "Lines", "Lines"},
     {"rviz/Polygon", "Color"},

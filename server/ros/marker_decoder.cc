@@ -1,8 +1,6 @@
 #include "server/ros/marker_decoder.h"
 
 #include <nav_msgs/OccupancyGrid.h>
-#include <ros/message_traits.h>
-#include <sensor_msgs/JointState.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <memory>
@@ -15,11 +13,6 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
-
-template <class Message>
-bool Is(const std::string& md5sum) {
-  return md5sum == ros::message_traits::md5sum<Message>();
-}
 
 bool IsSingle(const std::string& md5sum) { return Is<visualization_msgs::Marker>(md5sum); }
 bool IsArray(const std::string& md5sum) { return Is<visualization_msgs::MarkerArray>(md5sum); }
@@ -41,15 +34,13 @@ bool ReplacesThoseBefore(const std::string& md5sum, const ShownStyle& style, boo
 
 }  // namespace
 
-void MarkerDecoder::Add(DecodedMessage message) { decoded_.push_back(std::move(message)); }
-
 void MarkerDecoder::OnMessage(std::size_t topic, const Event& event, bool has_colors,
                               std::int64_t monotonic_nanos) {
   const std::string type = Said(event, "md5sum");
   if (ReplacesThoseBefore(type, topics_[topic].style, has_colors)) {
     const auto [kept, is_new] = kept_.try_emplace({topic, has_colors});
     if (!is_new) {
-      Add({topic, monotonic_nanos});
+      decoded_.push_back({topic, monotonic_nanos});
       decoded_.back().refusal =
           Refusal{"too fast", "messages come faster than they are shown: only the newest are"};
     }
@@ -58,14 +49,16 @@ void MarkerDecoder::OnMessage(std::size_t topic, const Event& event, bool has_co
   }
   DecodedMessage message{topic, monotonic_nanos};
   Decode(topic, event, has_colors, message);
-  Add(std::move(message));
+  // One that a cloud keeps to itself is nothing to show.
+  const bool is_kept = IsCalibrationType(type) && !message.calibration && !message.refusal;
+  if (!is_kept) decoded_.push_back(std::move(message));
 }
 
 void MarkerDecoder::DecodeKept() {
   for (const auto& [place, kept] : std::exchange(kept_, {})) {
     DecodedMessage message{place.first, kept.monotonic_nanos};
     Decode(place.first, kept.event, place.second, message);
-    if (!place.second || message.refusal) Add(std::move(message));
+    if (!place.second || message.refusal) decoded_.push_back(std::move(message));
   }
 }
 

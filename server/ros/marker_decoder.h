@@ -60,7 +60,6 @@ class MarkerDecoder {
 
   void Decode(std::size_t topic, const Event& event, bool has_colors, DecodedMessage& to);
   void DecodeMarkers(const RawMessage& raw, bool is_array, DecodedMessage& to);
-  void Add(DecodedMessage message);
 
   const std::vector<ShownTopic> topics_;
   TopicMarkers shown_;

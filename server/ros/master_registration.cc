@@ -436,7 +436,7 @@ void MasterRegistration::WarnOfMissingTopics() {
     if (is_missing && !shown.is_frame) missing.insert(shown.name);
   }
   if (missing.empty()) return;
-  spdlog::warn("nobody publishes {} (--marker_topics); what comes later is shown",
+  spdlog::warn("no publisher of {} (--marker_topics); messages are shown once there is one",
                fmt::join(missing, ", "));
 }
 

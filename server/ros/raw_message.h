@@ -35,6 +35,12 @@ struct RawMessage {
 [[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
                           visualization_msgs::MarkerArray& message);
 
+/// Whether a connection with this sum has messages of that type.
+template <class Message>
+bool Is(const std::string& md5sum) {
+  return md5sum == ros::message_traits::md5sum<Message>();
+}
+
 inline constexpr std::size_t kLargestMessage = 64 << 20;  // bytes: two million points of a cloud
 
 /// Subscribes to a topic of `Message` without trusting its array sizes. To publishers and in the

@@ -1,6 +1,5 @@
 #include "server/ros/topic_markers.h"
 
-#include <ros/message_traits.h>
 #include <sensor_msgs/JointState.h>
 
 #include <memory>
@@ -22,11 +21,6 @@ using visualization_msgs::InteractiveMarkerInit;
 using visualization_msgs::InteractiveMarkerUpdate;
 
 constexpr std::string_view kUpdate = "/update";
-
-template <class Message>
-bool Is(const std::string& md5sum) {
-  return md5sum == ros::message_traits::md5sum<Message>();
-}
 
 bool IsInteractive(const std::string& md5sum) {
   return Is<InteractiveMarkerInit>(md5sum) || Is<InteractiveMarkerUpdate>(md5sum);

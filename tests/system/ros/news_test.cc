@@ -169,7 +169,7 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
       "serve demo:lift --ros required --http_port 0 --pictures off --marker_topics /wolls,/walls "
       "--robot ros:panda");
   WaitForLine(*server, "/walls: marker walls/0: ");
-  WaitForLine(*server, "nobody publishes /wolls (--marker_topics)");
+  WaitForLine(*server, "no publisher of /wolls (--marker_topics)");
   WaitForLine(*server, "/panda: the parameter is not set");
 }
 
