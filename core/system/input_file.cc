@@ -1,6 +1,7 @@
 #include "core/system/input_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@
 #include "core/system/decompressor.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "core/system/stop_signal.h"
 
 namespace kinescope {
 namespace {
@@ -23,6 +25,7 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t kChunkBytes = 64 * 1024;
 constexpr std::size_t kLongestMagic = 16;
+constexpr int kLookEveryMillis = 100;  // whether the user stops this program
 
 struct Magic {
   std::string_view bytes;
@@ -56,16 +59,30 @@ class Descriptor {
   int number_;
 };
 
-// Bytes read, 0 at the end, -1 with errno. A signal ends the input: the user asked to stop while
-// the program waited for a pipe, and what has come is all there will be.
+// False if the user stops this program before a pipe has more: what has come is all there will be.
+// A signal alone would not tell: it may come just before the program waits, or to another thread.
+bool WaitForMore(int descriptor) {
+  pollfd file = {descriptor, POLLIN, 0};
+  while (poll(&file, 1, kLookEveryMillis) <= 0) {
+    if (StopRequested()) return false;
+  }
+  return true;
+}
+
+// Bytes read, 0 at the end, -1 with errno.
 ssize_t ReadSome(int descriptor, char* to, std::size_t size) {
-  const ssize_t count = read(descriptor, to, size);
-  return count < 0 && errno == EINTR ? 0 : count;
+  while (WaitForMore(descriptor)) {
+    const ssize_t count = read(descriptor, to, size);
+    if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return count;
+  }
+  return 0;
 }
 
 Descriptor Open(const std::string& path) {
   const bool is_stdin = path == "-";
-  Descriptor file(is_stdin ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // A named pipe is open before it has a writer; reading waits for one.
+  Descriptor file(is_stdin ? dup(STDIN_FILENO)
+                           : open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) {
     const int error = errno;
     const char* way_out = "";
