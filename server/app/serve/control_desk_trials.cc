@@ -50,8 +50,9 @@ ControlDesk::Result ControlDesk::StartTrial(const http::TrialOrder& order, http:
   if (running_) {
     return RefuseOrder(409, "a trial runs already: " + TitleOf(*running_) + "; stop it first");
   }
-  const marks::Moment now = log_.Now();
-  if (now.state == 0) return RefuseOrder(409, "no sample has come yet: a trial begins with one");
+  if (log_.Now().state == 0) {
+    return RefuseOrder(409, "no sample has come yet: a trial begins with one");
+  }
   const std::string wrong = parts_.folder.Prepare();
   if (!wrong.empty()) return RefuseOrder(409, wrong);
   recording::Trial trial;
@@ -72,6 +73,7 @@ ControlDesk::Result ControlDesk::StartTrial(const http::TrialOrder& order, http:
   } else {
     trial.recording_problem = parts_.why_no_recording;
   }
+  const marks::Moment now = log_.Now();  // the recording has it
   trial.from = ToTrialMoment(now);
   trial.mark = log_.BeginTrial(http::Name(role), TitleOf(trial), now);
   const std::string unwritten = trials_.Put(trial);
@@ -87,6 +89,7 @@ ControlDesk::Result ControlDesk::StartTrial(const http::TrialOrder& order, http:
 ControlDesk::Result ControlDesk::StopTrial() {
   if (!running_) return RefuseOrder(409, "no trial runs");
   recording::Trial trial = *std::exchange(running_, std::nullopt);
+  const marks::Moment now = log_.Now();  // the recording has it
   if (trial.has_recording) {
     parts_.recorder->Stop();
     const auto status = parts_.recorder->status();
@@ -96,7 +99,6 @@ ControlDesk::Result ControlDesk::StopTrial() {
           std::to_string(status.dropped) + " datagrams were not recorded: the disk was too slow";
     }
   }
-  const marks::Moment now = log_.Now();
   trial.to = ToTrialMoment(now);
   if (trial.mark) log_.EndTrial(*trial.mark, now);
   ++files_revision_;
