@@ -147,6 +147,8 @@ struct GraphView {
   /// Of the transforms of a bag; "": /tf.
   std::string tf_topic = {};
   std::string camera_frame = {};  // of TF: the camera goes with it; "": it stands
+  /// Without it, a bag that has no person is shown if it has something else to show.
+  bool needs_person = true;
 
   /// Whether a source that is neither a graph nor a bag can do without.
   bool is_empty() const { return tf_topic.empty() && topics.empty() && robots.empty(); }

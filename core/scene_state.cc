@@ -6,6 +6,7 @@ const char* Name(Liveness liveness) {
   switch (liveness) {
     case Liveness::kLive: return "live";
     case Liveness::kStale: return "stale";
+    case Liveness::kNoPerson: return "no person";
     case Liveness::kNoData: break;
   }
   return "no data";

@@ -130,10 +130,11 @@ struct TrackedObject {
 enum class Liveness {
   kNoData,  // no sample received yet
   kLive,
-  kStale,  // no new samples: poses are old, loads are unknown
+  kStale,     // no new samples: poses are old, loads are unknown
+  kNoPerson,  // the source lives, and has had no person yet: robots and what is about them
 };
 
-/// "no data", "live", "stale".
+/// "no data", "live", "stale", "no person".
 const char* Name(Liveness liveness);
 
 /// Of SceneState::waited_nanos; below it, waiting is not worth a word.
@@ -150,7 +151,8 @@ struct SceneState {
   Liveness liveness = Liveness::kNoData;
   std::uint64_t number = 0;  // of this state, from one state to the next +1; sinks use it to detect
                              // new states
-  std::int64_t stamp_nanos = 0;       // of the newest sample, ROS time; 0 before the first
+  std::int64_t stamp_nanos = 0;       // of the newest sample, ROS time; 0 before the first; with
+                                      // kNoPerson the time of the source
   std::uint32_t counter = 0;          // of the newest sample
   std::int64_t time_code_millis = 0;  // of the newest sample, ms
   std::int64_t arrival_nanos = 0;     // receive time, monotonic clock; 0 for files
@@ -171,6 +173,9 @@ struct SceneState {
   std::vector<LeftOutPerson> left_out;  // with a sample in the last second that is implausible
   std::vector<TrackedObject> objects;   // those with a sample in the last second
   std::vector<RobotState> robots;
+  /// What the named cameras show while there is no person (scene_extent.h), held: it does not
+  /// follow every movement. Empty: there is nothing, or there are people.
+  Eigen::AlignedBox3d extent;
   /// world_from_frame of the frame that a placed camera goes with, where it was last; none: there
   /// is no such frame, or it had no place yet.
   std::optional<urdf::Pose> camera_base;

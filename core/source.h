@@ -56,6 +56,13 @@ struct RecordedSurroundings {
   std::optional<urdf::Pose> camera_base = {};  // SceneState::camera_base
 };
 
+/// A moment of a source that has no person: of a ROS graph, or of a bag, of robots and what is
+/// about them.
+struct SourceMoment {
+  std::int64_t stamp_nanos = 0;    // as BodySample::stamp_nanos
+  std::int64_t arrival_nanos = 0;  // as BodySample::arrival_nanos; 0: from a file
+};
+
 class SampleSink {
  public:
   virtual ~SampleSink() = default;
@@ -64,6 +71,8 @@ class SampleSink {
   virtual void OnObjects(const ObjectsSample&) {}
   /// Those of a recording from the next sample on, in place of those before.
   virtual void OnSurroundings(const RecordedSurroundings&) {}
+  /// Takes the place of samples, in ascending order of time, until the first sample comes.
+  virtual void OnMoment(const SourceMoment&) {}
 };
 
 class Source {

@@ -168,7 +168,7 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
 }  // namespace
 
 bool HasOnlyRobots(const SceneState& state) {
-  return state.people.empty() && !state.robots.empty();
+  return state.people.empty() && !state.robots.empty() && state.stamp_nanos == 0;
 }
 
 SphereRim SphereRimOf(LoadClass load_class) {
@@ -209,6 +209,11 @@ LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
   LegendContent content;
   content.images = ImageSizesOf(state);
   if (HasOnlyRobots(state)) return content;
+  if (state.liveness == Liveness::kNoPerson || ShowsExtent(state)) {
+    AddThings(state, look, content.rows);
+    if (!content.rows.empty()) content.title = kSymbolsTitle;
+    return content;
+  }
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
   const auto add_class = [&](LoadClass load_class, double radius, const char* name,

@@ -175,7 +175,7 @@ Lamp LampOf(const SceneState& state) {
   if (state.liveness == Liveness::kStale) {
     lamp.color = kWarningLamp;
     lamp.text = "STALE";
-  } else if (state.liveness == Liveness::kLive) {
+  } else if (state.liveness != Liveness::kNoData) {
     const bool is_file = state.arrival_nanos == 0;
     const bool is_behind = state.waited_nanos > kOverloadNanos;
     lamp.color = is_file ? Rgb{0.25, 0.45, 0.75} : is_behind ? kWarningLamp : Rgb{0.10, 0.70, 0.25};
@@ -263,6 +263,7 @@ void Overlay::PaintTimeCode(Page& page, const SceneState& state) {
   const double right = page.width - page.Px(kMargin), bottom = page.bottom - page.Px(kMargin);
   const double left = right - f.regular.Width(time, size);
   page.canvas.Text(left, bottom - page.Px(kTimeCodeLine), time, f.regular, size, page.inks.text);
+  if (state.liveness == Liveness::kNoPerson) return;  // there is no sample
   page.canvas.Text(right - f.regular.Width(sample, small), bottom, sample, f.regular, small,
                    page.inks.faint_text);
 }

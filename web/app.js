@@ -33,6 +33,7 @@ import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { Shown } from './shown.js';
+import { runs } from './state_codec.js';
 import { StreamPanel } from './stream_panel.js';
 import { Tabs } from './tabs.js';
 import { theme } from './theme.js';
@@ -264,7 +265,7 @@ function onFrame(now) {
   if (scene && isDrawn) headNames.show(scene.heads(), shown.details.people);
   if (!isDrawn || !isNewSample || newest === null || !shown.isNewest) return;
   const serverNow = connection.clock.at(performance.now());
-  if (newest.arrivalMicros > 0 && serverNow !== null && newest.liveness === 'live') {
+  if (newest.arrivalMicros > 0 && serverNow !== null && runs(newest)) {
     latencies.add(serverNow - newest.arrivalMicros / 1000, performance.now());
   }
 }
@@ -295,7 +296,7 @@ function lacksModelOf(state) {
 }
 
 /** Whether what is shown is of now, or was when it was the newest. */
-const wasFresh = () => (shown.isNewest ? statusNow().isFresh : shown.state?.liveness === 'live');
+const wasFresh = () => (shown.isNewest ? statusNow().isFresh : runs(shown.state));
 
 function updateScene() {
   if (shown.state) scene?.update(shown.state, wasFresh());

@@ -87,6 +87,23 @@ export function ownAim(view, base, { least, most }) {
   };
 }
 
+/** Of a named view of a scene without people: Around() of render/camera/camera.cc.
+ *  @param {CameraView} view
+ *  @param {import('./view_frame.js').Axes} axes
+ *  @param {import('./state_codec.js').Extent} extent
+ *  @param {number} aspect  width / height of the view
+ *  @returns {Aim} */
+export function extentAim(view, { forward }, { min, max }, aspect) {
+  const margin = 1.15, smallest = 0.02;  // m
+  const radius = Math.max(length(subtract(max, min)) / 2, smallest), target = scale(add(min, max), 0.5);
+  const distance = (margin * radius) / Math.sin(view.vertical_fov_rad / 2) / Math.min(1, aspect);
+  return {
+    position: subtract(target, scale(forward, distance)),
+    target,
+    fovDegrees: (view.vertical_fov_rad * 180) / Math.PI,
+  };
+}
+
 /** Position and target of the camera that shows `view` from that place.
  *  @param {CameraView} view
  *  @param {import('./view_frame.js').Axes} axes

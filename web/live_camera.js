@@ -1,5 +1,5 @@
 // The camera of a named view: it shows the people of the newest state as large as the view has room for them.
-import { axesOf, cameraAt, framedPeople, middleOf } from './cameras.js';
+import { axesOf, cameraAt, extentAim, framedPeople, middleOf } from './cameras.js';
 import { HeldView } from './held_view.js';
 import { ballsOf } from './outline.js';
 import { besideCorners, neededHull, placeFor } from './view_frame.js';
@@ -10,6 +10,7 @@ import { besideCorners, neededHull, placeFor } from './view_frame.js';
 export class LiveCamera {
   #outlines = /** @type {Map<number, import('./messages.js').OutlinePoint[]>} */ (new Map());  // by character
   #people = /** @type {import('./state_codec.js').Person[]} */ ([]);
+  #extent = /** @type {import('./state_codec.js').Extent|null} */ (null);
   #middle = [0, 0, 0];  // of the people on the floor
   #heading = 0;  // by which named views are turned, rad
   #secs = 0;
@@ -31,8 +32,16 @@ export class LiveCamera {
     this.#heading = state.viewHeading;
     this.#secs = state.sentMicros / 1e6;
     this.#people = framedPeople(state.people, reach);
+    this.#extent = null;
     this.#middle = middleOf(this.#people, state.floor);
     return this.#middle;
+  }
+
+  /** Of a scene without people.
+   *  @param {import('./state_codec.js').Extent} extent */
+  setExtent(extent) {
+    this.#people = [];
+    this.#extent = extent;
   }
 
   /** @param {number} aspect  width / height of the view */
@@ -57,6 +66,7 @@ export class LiveCamera {
    *  @returns {import('./cameras.js').Aim} */
   aim(view, followed) {
     const axes = axesOf(view, this.#heading), slope = Math.tan(view.vertical_fov_rad / 2);
+    if (this.#people.length === 0 && this.#extent !== null) return extentAim(view, axes, this.#extent, this.#aspect);
     const people = this.#people.map((person) =>
       ({ place: person.links[0].position, balls: ballsOf(person, this.#outlines.get(person.character)) }));
     const needed = neededHull(people, this.#middle, axes);

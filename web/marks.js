@@ -2,6 +2,7 @@
 import { areAlike, placedIn } from './recorded_marks.js';
 import { ask, messageOf, NoConnection, request } from './server_api.js';
 import { boolean, listOf, number, object, optional, readMark, readMarks, string } from './messages.js';
+import { runs } from './state_codec.js';
 
 /** @typedef {import('./messages.js').Mark} Mark
  *  @typedef {{state: number, button?: number, text?: string, is_span?: boolean}} NewMark  state: number of the one on the
@@ -89,7 +90,7 @@ export class Marks {
    *  @param {import('./state_codec.js').State|null} newest */
   setPlayed(recording, newest) {
     if (recording === null) this.#setAnchor(null);
-    else if (newest?.liveness === 'live') this.#setAnchor({ recording, ...newest });
+    else if (newest && runs(newest)) this.#setAnchor({ recording, ...newest });
     // The state that says that it is over is made later than its last sample was played.
     else if (newest && recording.ended_micros !== null) this.#setAnchor({ recording, ...newest, madeMicros: recording.ended_micros });
   }

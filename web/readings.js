@@ -12,13 +12,13 @@ import { handLoadText } from './hand_load.js';
  *  @param {{median: number, p95: number}|null} latencies  ms; null: unknown
  *  @param {boolean} isLive */
 export function streamReadingsOf(state, latencies, isLive) {
-  const hasSample = state !== null && state.liveness !== 'no data';
+  const hasTime = state !== null && state.liveness !== 'no data', hasSample = hasTime && state.liveness !== 'no person';
   return {
     rate: isLive && state ? rate(state.rateHz) : '–',
     latency: latency(latencies?.median ?? null),
     latencyP95: latencies ? `p95 ${latency(latencies.p95)}` : '',
     sample: hasSample ? String(state.counter) : '–',
-    timeCode: hasSample ? timeCode(state.timeCodeMillis) : '–',
+    timeCode: hasTime ? timeCode(state.timeCodeMillis) : '–',
     viewers: state ? `${state.viewers} ${state.viewers === 1 ? 'viewer' : 'viewers'}` : '',
   };
 }

@@ -24,10 +24,11 @@ const HEAD = 6;  // number of its link
 const HEAD_TOP = 0.3;  // m above its joint, with some air
 const DISTANCES = { least: 0.6, most: 30 };  // m, from the target
 const LEAST_STEP = 1e-5;  // m
+const FAR = 80, FOG = { near: 7, far: 15 };  // m, of scenes with people
 
 export class Scene {
   #scene = new THREE.Scene();
-  #camera = new THREE.PerspectiveCamera(30, 1, 0.05, 80);
+  #camera = new THREE.PerspectiveCamera(30, 1, 0.05, FAR);
   #floor = new THREE.Group();  // follows the people in whole metres, so that it appears endless
   #sun = new THREE.DirectionalLight(0xffffff, 2.3);
   #sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 2);
@@ -51,6 +52,7 @@ export class Scene {
   #cameraBase = /** @type {import('./state_codec.js').Pose|null} */ (null);
   /** @type {{character: number, position: number[]}[]} */ #heads = [];
   /** @type {import('./orbit.js').Place|null} */ #placeWanted = null;  // until the people are there
+  #hasExtent = false;  // there was a scene without people
   #isSeen = true;
   #dirty = true;
   #lastFrameAt = 0;
@@ -175,7 +177,15 @@ export class Scene {
     this.#surroundings.place(state.robots);
     this.#cameraBase = state.cameraBase;
     if (state.people.length > 0) {
+      this.#makeRoom(0);
       this.#middle = this.#liveCamera.setState(state, this.#framing?.reach_m ?? Infinity);
+      this.#aim();
+    } else if (state.extent !== null) {
+      const { min, max } = state.extent;
+      this.#hasExtent = true;
+      this.#makeRoom(Math.hypot(...max.map((v, i) => v - min[i])));
+      this.#followed = this.#middle = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, state.floor];
+      this.#liveCamera.setExtent(state.extent);
       this.#aim();
     } else if (this.#isOwn) {
       this.#aim();
@@ -213,7 +223,7 @@ export class Scene {
   }
 
   #takePlace() {
-    if (this.#placeWanted === null || this.#people.size === 0) return;
+    if (this.#placeWanted === null || (this.#people.size === 0 && !this.#hasExtent)) return;
     const { position, target } = this.#placeWanted;
     this.#followed = this.#middle;
     this.#leaveView();
@@ -328,6 +338,22 @@ export class Scene {
     this.#dirty = true;
   }
 
+  /** Neither the background nor the far plane hides a scene that is larger than people need.
+   *  @param {number} size  its diagonal, m; 0: as people need it */
+  #makeRoom(size) {
+    const farthest = 8 * size;  // how far away a narrow view stands, with what is behind
+    if (this.#scene.fog instanceof THREE.Fog) {
+      this.#scene.fog.near = Math.max(FOG.near, farthest);
+      this.#scene.fog.far = Math.max(FOG.far, 2 * farthest);
+    }
+    const far = Math.max(FAR, 2 * farthest);
+    this.controls.maxDistance = Math.max(DISTANCES.most, farthest);
+    this.controls.minDistance = size > 0 ? Math.min(DISTANCES.least, size) : DISTANCES.least;
+    if (this.#camera.far === far) return;
+    this.#camera.far = far;
+    this.#camera.updateProjectionMatrix();
+  }
+
   /** @param {number} seconds  since the last frame */
   #follow(seconds) {
     const share = this.#stillness.matches ? 1 : 1 - Math.exp(-Math.min(seconds, 1) / FOLLOW_SECONDS);
@@ -381,7 +407,7 @@ export class Scene {
     const valueOf = (/** @type {string} */ property) => style.getPropertyValue(property).trim();
     const background = new THREE.Color(valueOf('--scene'));
     this.#scene.background = background;
-    this.#scene.fog = new THREE.Fog(background, 7, 15);
+    this.#scene.fog = new THREE.Fog(background, FOG.near, FOG.far);
     this.#sky.intensity = Number(valueOf('--scene-sky'));
     this.#shade.material.opacity = Number(valueOf('--scene-shadow'));
     this.#grid.material.color.set(valueOf('--scene-line'));

@@ -4,6 +4,7 @@ import { HeldRun } from './held_run.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
 import { messageOf } from './server_api.js';
+import { runs } from './state_codec.js';
 import { placeIn } from './status.js';
 import { ViewerTime } from './viewer_time.js';
 
@@ -93,7 +94,7 @@ export class Shown {
   /** Of a viewer who is sent few of the newest states: how long the stream has gone on since the last one, ms.
    *  @param {State} newest */
   #sinceNewest(newest) {
-    if (!this.#wantsFew || newest.liveness !== 'live') return 0;
+    if (!this.#wantsFew || !runs(newest)) return 0;
     return Math.max(0, Math.min(FEW_STATES_MILLIS, performance.now() - this.#newestAt));
   }
 

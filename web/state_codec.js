@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2, past: 3 };
-export const VERSION = 9;
+export const VERSION = 10;
 
 /** The name of this version among the subprotocols of a WebSocket. */
 export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
@@ -9,7 +9,7 @@ export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
 const STATE_HEADER_BYTES = 96;
 
 // Names by their number in a message.
-const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
+const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale', 'no person']);
 const LOAD_CLASS = /** @type {const} */ (['unknown', 'low', 'medium', 'high']);
 const METRIC = /** @type {const} */ (['total', 'overload', 'external', 'norm']);
 const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
@@ -28,16 +28,21 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *    links: Pose[], loads: Load[], support: number[][], feet: GroundForce[], held: Solid[]}} Person
  *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left; feet: those with a force that is shown
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
+ *  @typedef {{min: number[], max: number[]}} Extent  m
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number,
  *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[],
- *    ghosts: Person[], robots: Pose[][], cameraBase: Pose|null}} State
+ *    ghosts: Person[], robots: Pose[][], cameraBase: Pose|null, extent: Extent|null}} State
  *    ghosts: reference poses; robots: those that move, the links that are drawn of each; not finite: nowhere;
  *    arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by which named views are turned about
- *    z, rad; cameraBase: of the frame that the server's own camera goes with;
+ *    z, rad; cameraBase: of the frame that the server's own camera goes with; extent: of a scene without people;
  *    madeMicros: its moment in the server's history, oldestMicros, oldestNumber: of the first state in it, 0: none
  */
+
+/** Whether time goes on in its stream.
+ *  @param {State|null|undefined} state */
+export const runs = (state) => state?.liveness === 'live' || state?.liveness === 'no person';
 
 /** The kind of a message; throws if the server uses another version of the protocol.
  *  @param {ArrayBuffer} buffer */
@@ -98,14 +103,15 @@ class Bytes {
  *  @returns {State} */
 export function decodeState(buffer) {
   const bytes = new Bytes(buffer);
-  const { peopleCount, objectCount, ghostCount, robotCount, hasCameraBase, ...header } = readStateHeader(bytes);
+  const { peopleCount, objectCount, ghostCount, robotCount, hasCameraBase, hasExtent, ...header } = readStateHeader(bytes);
   const people = bytes.list(peopleCount, readPerson);
   const objects = bytes.list(objectCount, readObject);
   const ghosts = bytes.list(ghostCount, readPerson);
   const robots = bytes.list(robotCount, readRobot);
   const cameraBase = hasCameraBase ? readPose(bytes) : null;
+  const extent = hasExtent ? { min: bytes.floats(3), max: bytes.floats(3) } : null;
   bytes.end();
-  return { ...header, people, objects, ghosts, robots, cameraBase };
+  return { ...header, people, objects, ghosts, robots, cameraBase, extent };
 }
 
 /** @param {ArrayBuffer} buffer
@@ -175,12 +181,12 @@ function readStateHeader(bytes) {
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
   const robotCount = bytes.u8();
-  const hasCameraBase = bytes.u8() !== 0;
-  bytes.skip(2);
+  const hasCameraBase = bytes.u8() !== 0, hasExtent = bytes.u8() !== 0;
+  bytes.skip(1);
   const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, ghostCount, robotCount, hasCameraBase, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
+    viewers, floor, objectCount, ghostCount, robotCount, hasCameraBase, hasExtent, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
   };
 }
 

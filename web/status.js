@@ -18,7 +18,7 @@ export const BEHIND_MILLIS = 250;
  *    what the word is about; banner "": none
  *  @typedef {StreamStatus & {isFresh: boolean}} Status  isFresh: the newest sample is of now
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
- *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, waitedMillis: number,
+ *    liveness: 'no data'|'live'|'stale'|'no person'|null, ageMillis: number|null, waitedMillis: number,
  *    source: string, reason: string, behindMillis?: number|null, isGone?: boolean, loss?: number|null, isLosing?: boolean,
  *    recording?: import('./messages.js').Recording|null, stampMicros?: number}} Situation  reason: why the server
  *    rejected the connection; "" otherwise; behindMillis: by which the viewer looks back; null or absent: not; isGone: the
@@ -87,6 +87,7 @@ function streamStatusOf(now) {
     const since = now.ageMillis === null ? '' : `: last sample received ${age(now.ageMillis / 1000)} ago`;
     return { level: 'stale', word: 'Stale', note: 'the stream has stopped', banner: `The stream has stopped${since}` };
   }
+  if (now.liveness === 'no person') return { level: 'live', word: 'Live', note: 'no person yet', banner: '' };
   const loss = now.loss ?? null;
   if (now.isLosing && loss !== null) {
     return { level: 'losing', word: `Losing data ${lossText(loss)}`, note: 'lost or incomplete in 10 s', banner: '' };

@@ -123,39 +123,26 @@ Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
   throw UsageError("unknown camera '" + name + "'; expected one of " + known);
 }
 
-namespace {
-
-// Robots come in all sizes, so the view is as large as they are.
-Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
+// Robots and places come in all sizes, so the view is as large as they are.
+Camera NamedCameraAround(const std::string& name, const Eigen::AlignedBox3d& extent) {
   constexpr double kMargin = 1.15, kSmallest = 0.02;  // m
-  const double radius = std::max(0.5 * box.diagonal().norm(), kSmallest);
+  const double radius = std::max(0.5 * extent.diagonal().norm(), kSmallest);
   Camera camera = NamedCameraAt(name, GroundExtent());
   const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
   const double distance = kMargin * radius / std::sin(0.5 * camera.vertical_fov_rad);
-  camera.target = box.center();
+  camera.target = extent.center();
   camera.position = camera.target + distance * to_camera;
   camera.near_m = std::min(camera.near_m, 0.02 * distance);
   camera.far_m = std::max(camera.far_m, 4 * distance);
   return camera;
 }
 
-Eigen::AlignedBox3d BoxOfRobots(const std::vector<RobotState>& robots) {
-  Eigen::AlignedBox3d box;
-  for (const RobotState& robot : robots) {
-    box.extend(robot.bounds);
-    if (!robot.bounds.isEmpty()) continue;
-    for (const Eigen::Isometry3d& link : robot.world_from_link) box.extend(link.translation());
-  }
-  return box;
+bool ShowsExtent(const SceneState& state) {
+  return state.people.empty() && !state.extent.isEmpty();
 }
 
-}  // namespace
-
 Camera NamedCamera(const std::string& name, const SceneState& state) {
-  if (state.people.empty()) {
-    const Eigen::AlignedBox3d box = BoxOfRobots(state.robots);
-    if (!box.isEmpty()) return Around(name, box);
-  }
+  if (ShowsExtent(state)) return NamedCameraAround(name, state.extent);
   return NamedCameraAt(name, GroundExtentOf(state));
 }
 

@@ -32,10 +32,16 @@ const std::vector<std::string>& CameraNames();
 /// "right". Other names are their own.
 const std::string& CameraMeantBy(const std::string& name);
 
+/// Whether named cameras show SceneState::extent, for want of people.
+bool ShowsExtent(const SceneState& state);
+
+/// The named camera at a distance that shows all of `extent`. @throws as NamedCamera.
+Camera NamedCameraAround(const std::string& name, const Eigen::AlignedBox3d& extent);
+
 /// The named camera, aimed at the people in `state` (their pelvis projected on the floor; the
 /// origin without people) at a distance that shows a standing adult with arms overhead.
-/// With robots but no people: aimed at the middle of the robots, at a distance that shows all of
-/// them. front: seen from +x, so that the person faces the camera.
+/// Without people, and with something else: aimed at the middle of SceneState::extent, at a
+/// distance that shows all of it. front: seen from +x, so that the person faces the camera.
 /// @throws UsageError with the requested camera and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
@@ -75,6 +81,9 @@ double ShownHeight(const Camera& camera);
 /// `camera` moved back if a narrow picture (width / height = `aspect`) would cut off the arms of
 /// the person in its middle (GroupFraming::min_width_m).
 [[nodiscard]] Camera ForAspect(const Camera& camera, double aspect);
+
+/// `camera` moved back if a narrow picture would cut off the sides of a scene's extent.
+[[nodiscard]] Camera WithWholeExtent(const Camera& camera, double aspect);
 
 /// Rotated about the vertical through its target, counter-clockwise seen from above.
 [[nodiscard]] Camera Turned(const Camera& camera, double angle_rad);

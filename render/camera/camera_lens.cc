@@ -39,16 +39,26 @@ Camera Orthographic(const Camera& camera) {
                     std::max((camera.position - camera.target).norm(), 2 * other.ortho_height_m));
 }
 
-Camera ForAspect(const Camera& camera, double aspect) {
-  const double widened = kGroupFraming.min_width_m / (ShownHeight(camera) * aspect);
-  if (widened <= 1) return camera;
+namespace {
+
+// `camera` that shows `factor` times as much; as it is below 1.
+Camera Widened(const Camera& camera, double factor) {
+  if (factor <= 1) return camera;
   Camera wider = camera;
   if (camera.is_orthographic()) {
-    wider.ortho_height_m *= widened;
+    wider.ortho_height_m *= factor;
     return wider;
   }
-  return AtDistance(wider, widened * (camera.position - camera.target).norm());
+  return AtDistance(wider, factor * (camera.position - camera.target).norm());
 }
+
+}  // namespace
+
+Camera ForAspect(const Camera& camera, double aspect) {
+  return Widened(camera, kGroupFraming.min_width_m / (ShownHeight(camera) * aspect));
+}
+
+Camera WithWholeExtent(const Camera& camera, double aspect) { return Widened(camera, 1 / aspect); }
 
 Camera Turned(const Camera& camera, double angle_rad) {
   const Eigen::AngleAxisd turn(angle_rad, Eigen::Vector3d::UnitZ());

@@ -92,7 +92,7 @@ std::vector<Rule> Alarms::rules() const {
 }
 
 void Alarms::OnState(const SceneState& state) {
-  if (state.liveness == Liveness::kNoData) return;
+  if (state.liveness == Liveness::kNoData || state.liveness == Liveness::kNoPerson) return;
   Changes changes;
   Events events;
   {

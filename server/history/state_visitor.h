@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include "core/scene_state.h"
@@ -126,6 +127,21 @@ void VisitRobot(Column& column, Robot& robot) {
   }
 }
 
+template <class Column, class Box>
+void VisitExtent(Column& column, Box& extent) {
+  std::optional<Eigen::Vector3d> lowest, highest;
+  if (!extent.isEmpty()) {
+    lowest = extent.min();
+    highest = extent.max();
+  }
+  VisitPoint(column, lowest);
+  VisitPoint(column, highest);
+  if constexpr (!std::is_const_v<Box>) {
+    extent.setEmpty();
+    if (lowest && highest) extent = {*lowest, *highest};
+  }
+}
+
 template <class Column, class State>
 void VisitState(Column& column, State& state) {
   column.Whole(state.number);  // the first two: Chunk::Rows
@@ -143,6 +159,7 @@ void VisitState(Column& column, State& state) {
   for (auto& person : state.people) VisitPerson(column, person);
   for (auto& object : state.objects) VisitPose(column, object.pose);
   for (auto& robot : state.robots) VisitRobot(column, robot);
+  VisitExtent(column, state.extent);
   column.Optional(state.camera_base, [&](auto& pose) { VisitPose(column, pose); });
 }
 

@@ -199,7 +199,8 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   robots.resize(CountByte(robots.size()));
   out.Put(static_cast<std::uint8_t>(robots.size()));
   out.Put(static_cast<std::uint8_t>(state.camera_base ? 1 : 0));
-  for (int i = 0; i < 2; ++i) out.Put(std::uint8_t{0});
+  out.Put(static_cast<std::uint8_t>(state.extent.isEmpty() ? 0 : 1));
+  out.Put(std::uint8_t{0});
   out.PutDouble(Micros(state.made_nanos));
   const history::Extent kept = moment.kept.value_or(history::Extent{});
   out.PutDouble(Micros(kept.first_nanos));
@@ -210,6 +211,9 @@ void PutState(Writer& out, const SceneState& state, const StateMoment& moment) {
   for (std::size_t i = 0; i < ghosts; ++i) PutPerson(out, state.ghosts[i].person);
   for (const RobotState* const robot : robots) PutRobot(out, *robot);
   if (state.camera_base) PutPose(out, *state.camera_base);
+  if (state.extent.isEmpty()) return;
+  out.PutVector(state.extent.min());
+  out.PutVector(state.extent.max());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 9;
+inline constexpr std::uint8_t kProtocolVersion = 10;
 
 /// "kinescope.v9": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();

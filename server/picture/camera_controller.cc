@@ -80,6 +80,7 @@ void CameraController::Prescan(const SceneState& state, const std::vector<Ball>&
   if (!prescan_start_nanos_) prescan_start_nanos_ = state.stamp_nanos;
   const double secs = SecsBetween(*prescan_start_nanos_, state.stamp_nanos);
   clip_secs_ = std::max(clip_secs_, secs);
+  clip_extent_.extend(state.extent);
   constexpr double kInterval = 1.0 / 30;  // s, in which nothing moves far
   if (fit_ != Fit::kClip || secs < next_prescan_secs_) return;
   next_prescan_secs_ = secs + kInterval;
@@ -88,6 +89,12 @@ void CameraController::Prescan(const SceneState& state, const std::vector<Ball>&
     clip_.Add(ball);
     clip_around_people_.Add({ball.center - middle, ball.radius});
   }
+}
+
+// What named cameras show instead of people; empty: there are some, or there is nothing.
+Eigen::AlignedBox3d CameraController::Extent(const SceneState& state) const {
+  if (!state.people.empty()) return {};
+  return clip_extent_.isEmpty() ? state.extent : clip_extent_;
 }
 
 // Turned with the person; -0 would change the last bits of a camera that is not.
@@ -127,11 +134,11 @@ render::Camera CameraController::Placed(const SceneState& state, const render::G
     return render::AlongPath(keys, secs);
   }
   if (place_) return OnBase(*place_, state);
-  // Only the direction counts then; wherever people are, it is the same to the last bit.
-  if (fit_ == Fit::kClip) return NamedAt(camera_, {});
   // Robots have no ground: the view is as large as they are.
-  const bool is_of_robots = state.people.empty() && !state.robots.empty();
-  return is_of_robots ? render::NamedCamera(camera_, state) : NamedAt(camera_, ground);
+  const Eigen::AlignedBox3d extent = Extent(state);
+  if (!extent.isEmpty()) return render::NamedCameraAround(camera_, extent);
+  // Only the direction counts then; wherever people are, it is the same to the last bit.
+  return fit_ == Fit::kClip ? NamedAt(camera_, {}) : NamedAt(camera_, ground);
 }
 
 // It stands still unless people would be much smaller for it; then it goes with them.
@@ -161,12 +168,14 @@ render::Camera CameraController::Finished(const render::Camera& placed,
                                           const SceneState& state, double secs, double aspect,
                                           const std::vector<Ball>& beside) const {
   const render::Camera camera = Lensed(placed, secs);
+  // A given position or lens is kept.
+  if (IsNamed() && !Extent(state).isEmpty()) return render::WithWholeExtent(camera, aspect);
   if (fit_ == Fit::kClip && !clip_.balls().empty()) return ForClip(camera, ground, aspect);
   if (fit_ == Fit::kNow) {
     const std::vector<Ball> shown = ShownBalls(state, beside);
     if (!shown.empty()) return render::Framing(camera, shown, aspect, free_area_);
   }
-  // A given position or lens is kept; a named camera keeps the person in the picture.
+  // A named camera keeps the person in the picture.
   return IsNamed() ? render::ForAspect(camera, aspect) : camera;
 }
 
@@ -225,9 +234,9 @@ render::Camera CameraController::AimAt(const render::GroundExtent& ground, const
   return Finished(camera, ground, state, secs, aspect, beside);
 }
 
-// Not of robots alone: the view is as large as they are.
+// Not without people: what there is is held already.
 bool CameraController::HoldsView(const SceneState& state) const {
-  return holds_view_ && (!state.people.empty() || state.robots.empty());
+  return holds_view_ && Extent(state).isEmpty();
 }
 
 render::Camera CameraController::Aim(const SceneState& state, double aspect,

@@ -77,6 +77,7 @@ class CameraController {
                                        std::optional<double> lag_secs);
   };
 
+  Eigen::AlignedBox3d Extent(const SceneState& state) const;
   bool IsNamed() const { return !place_ && keys_.empty(); }
   render::Camera NamedAt(const std::string& name, const render::GroundExtent& ground) const;
   render::Camera OnBase(render::Camera camera, const SceneState& state) const;
@@ -116,6 +117,7 @@ class CameraController {
   // Of the prescan:
   Follower prescan_follower_;
   render::BallHull clip_, clip_around_people_;  // world; relative to what the camera follows
+  Eigen::AlignedBox3d clip_extent_;             // all that the clip shows without people
   std::optional<std::int64_t> prescan_start_nanos_;
   double clip_secs_ = 0, next_prescan_secs_ = 0;
   // Of the pictures so far:

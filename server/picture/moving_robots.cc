@@ -33,6 +33,7 @@ void AddBagView(const ViewOptions& options, SceneOptions& scene) {
                     "of the URDF: --robot=FILE.urdf@tf",
                     place.parameter));
   }
+  scene.bag.needs_person = false;
   scene.bag.topics = *options.marker_topics;
   scene.bag.robots = ReadMovingRobots(*options.robot);
   scene.bag.camera_frame = scene.camera_frame = options.moves.camera_tf->frame;

@@ -176,6 +176,7 @@ class Bridge : public RosBridge {
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
+    scene_frame_->Update(MonotonicNanos(), markers_in_ ? markers_in_->FirstFrame() : "");
     // Robots first: their links may be frames of markers.
     if (robots_in_) robots_in_->Deliver(MonotonicNanos(), is_stale_ ? 0 : shown_stamp_nanos_, sink);
     if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
@@ -224,6 +225,7 @@ class Bridge : public RosBridge {
   void PublishLive(const SceneState& state) {
     last_live_number_ = state.number;
     shown_stamp_nanos_ = state.stamp_nanos;
+    if (!state.people.empty()) scene_frame_->SetPerson();
     for (const PersonState& person : state.people) {
       Outlet& outlet = OutletOf(person);
       outlet.seen_in_number = state.number;
@@ -243,13 +245,13 @@ class Bridge : public RosBridge {
   std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
     const GraphView& shown = config_.shown;
     if (shown.topics.empty() && shown.camera_frame.empty()) return nullptr;
-    return std::make_shared<MarkerInbox>(shown.topics, shown.camera_frame, config_.reference_frame,
+    return std::make_shared<MarkerInbox>(shown.topics, shown.camera_frame, scene_frame_,
                                          transforms_, robots_in_);
   }
 
   std::shared_ptr<RobotInbox> MakeRobotInbox() const {
     if (config_.shown.robots.empty()) return nullptr;
-    return std::make_shared<RobotInbox>(config_.shown.robots, config_.reference_frame, transforms_);
+    return std::make_shared<RobotInbox>(config_.shown.robots, scene_frame_, transforms_);
   }
 
   InputWiring MakeWiring() {
@@ -464,8 +466,10 @@ class Bridge : public RosBridge {
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
   std::vector<std::string> marks_in_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
-  const std::shared_ptr<RobotInbox> robots_in_ = MakeRobotInbox();         // null: no robots
-  const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
+  const std::shared_ptr<SceneFrame> scene_frame_ =
+      std::make_shared<SceneFrame>(config_.reference_frame, transforms_);
+  const std::shared_ptr<RobotInbox> robots_in_ = MakeRobotInbox();     // null: no robots
+  const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();  // null: no marker topics
   const std::shared_ptr<MarkerListener> marker_listener_ =
       markers_in_ ? std::make_shared<MarkerListener>(markers_in_) : nullptr;
   MasterRegistration registration_;

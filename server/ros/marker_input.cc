@@ -286,6 +286,17 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   return true;
 }
 
+void MarkerStore::PlaceAgain() {
+  for (auto& [key, entry] : entries_) entry.is_new = true;
+  next_retry_nanos_ = 0;
+}
+
+std::string MarkerStore::FirstFrame() const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [](const auto& entry) { return !entry.second.frame.empty(); });
+  return found == entries_.end() ? "" : found->second.frame;
+}
+
 MarkerStore::Lost MarkerStore::LostOf(const Key& key, const Entry& entry) {
   return {std::get<0>(key), fmt::format("marker {}: frame '{}' is not known yet",
                                         IdentityOf(*entry.shape), entry.frame)};

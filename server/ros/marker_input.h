@@ -56,6 +56,11 @@ class MarkerStore {
   /// True if the list of `markers()` has changed.
   [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
+  /// Looks all frames up again: the reference frame is another one.
+  void PlaceAgain();
+  /// The frame of the first marker that has one; "": there is none.
+  [[nodiscard]] std::string FirstFrame() const;
+
   /// All markers with a known frame, in the order of topic, namespace and id.
   const Markers& markers() const { return placed_; }
 

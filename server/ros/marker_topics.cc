@@ -63,10 +63,11 @@ std::size_t WeightOf(const DecodedMessage& message) {
 }  // namespace
 
 MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
-                         std::string reference_frame, std::shared_ptr<const TfTree> tf,
+                         std::shared_ptr<const SceneFrame> frame, std::shared_ptr<const TfTree> tf,
                          std::shared_ptr<const RobotInbox> robots)
     : topics_(Resolved(std::move(topics))),
-      reference_frame_(std::move(reference_frame)),
+      frame_(std::move(frame)),
+      placed_in_(frame_->name()),
       tf_(std::move(tf)),
       robots_(std::move(robots)),
       decoder_(topics_,
@@ -213,14 +214,15 @@ void MarkerInbox::SetPerson(const PersonState& person, double floor_z) {
 
 std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
                                             std::int64_t stamp_nanos) const {
-  // An empty frame means the reference frame.
-  if (frame.empty() || frame == reference_frame_) return urdf::Pose{};
+  // An empty frame means that of the scene.
+  const std::string& reference_frame = frame_->name();
+  if (frame.empty() || frame == reference_frame) return urdf::Pose{};
   for (const auto& [character, body] : bodies_) {
-    const auto found = FindFrame(frame, stamp_nanos, reference_frame_, body.model, body.now, *tf_);
+    const auto found = FindFrame(frame, stamp_nanos, reference_frame, body.model, body.now, *tf_);
     if (found) return found->pose;
   }
   if (bodies_.empty()) {
-    if (auto found = tf_->Find(reference_frame_, frame, stamp_nanos)) return found;
+    if (auto found = tf_->Find(reference_frame, frame, stamp_nanos)) return found;
   }
   return FindChainedOf(Robots(), frame);
 }
@@ -233,11 +235,10 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
   if (!frames_) return false;
   const auto list = [this] {
     std::vector<TreeFrame> all = tf_->frames();
-    all.push_back({reference_frame_, "", 0});
+    all.push_back({frame_->name(), "", 0});
     for (const auto& [character, body] : bodies_) {
       for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-        all.push_back(
-            {urdf::LinkName(body.model, segment), reference_frame_, body.now.stamp_nanos});
+        all.push_back({urdf::LinkName(body.model, segment), frame_->name(), body.now.stamp_nanos});
       }
     }
     return all;
@@ -258,6 +259,10 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
     return Find(frame, stamp_nanos);
   };
   TakeDecoded();
+  if (placed_in_ != frame_->name()) {
+    placed_in_ = frame_->name();
+    store_.PlaceAgain();
+  }
   bool changed = store_.Update(monotonic_nanos, find);
   changed = UpdateFrames(monotonic_nanos) || changed;
   if (changed) sink.OnMarkers(Together(store_.markers(), frames_));

@@ -29,6 +29,7 @@
 #include "server/ros/marker_decoder.h"
 #include "server/ros/marker_input.h"
 #include "server/ros/robot_inbox.h"
+#include "server/ros/scene_frame.h"
 #include "server/ros/shown_frames.h"
 
 namespace kinescope::ros_bridge {
@@ -36,9 +37,11 @@ namespace kinescope::ros_bridge {
 class MarkerInbox {
  public:
   /// At most kMostShownTopics. @throws UsageError with an invalid name. @pre InitRos was called.
+  /// @param frame  in which the scene stands
   /// @param robots  whose links may be frames of markers, and whose efforts are shown; or null
-  MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame, std::string reference_frame,
-              std::shared_ptr<const TfTree> tf, std::shared_ptr<const RobotInbox> robots);
+  MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
+              std::shared_ptr<const SceneFrame> frame, std::shared_ptr<const TfTree> tf,
+              std::shared_ptr<const RobotInbox> robots);
 
   const std::vector<ShownTopic>& topics() const { return topics_; }  // with their full names
 
@@ -52,6 +55,8 @@ class MarkerInbox {
 
   // The following functions are for the thread that reads samples.
 
+  /// See MarkerStore::FirstFrame().
+  std::string FirstFrame() const { return store_.FirstFrame(); }
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
   /// Passes on the markers, the pictures and the camera's frame if they have changed.
@@ -80,7 +85,8 @@ class MarkerInbox {
   bool UpdateFrames(std::int64_t monotonic_nanos);
 
   const std::vector<ShownTopic> topics_;
-  const std::string reference_frame_;
+  const std::shared_ptr<const SceneFrame> frame_;
+  std::string placed_in_;  // what frame_ was when markers were placed
   const std::shared_ptr<const TfTree> tf_;
   const std::shared_ptr<const RobotInbox> robots_;
 

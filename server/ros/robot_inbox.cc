@@ -22,10 +22,10 @@ constexpr std::uint32_t kJointStateQueue = 100;
 
 }  // namespace
 
-RobotInbox::RobotInbox(std::vector<GraphRobot> wanted, std::string reference_frame,
+RobotInbox::RobotInbox(std::vector<GraphRobot> wanted, std::shared_ptr<const SceneFrame> frame,
                        std::shared_ptr<const TfTree> tf)
     : wanted_(std::move(wanted)),
-      reference_frame_(std::move(reference_frame)),
+      frame_(std::move(frame)),
       tf_(std::move(tf)),
       slots_(wanted_.size()),
       texts_(wanted_.size()) {
@@ -150,8 +150,8 @@ void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos,
     if (!slots_[i].frames) continue;
     RobotFrames& frames = *slots_[i].frames;
     const auto find = [&](const std::string& frame) -> std::optional<urdf::Pose> {
-      if (frame == reference_frame_) return urdf::Pose{};
-      return tf_->Find(reference_frame_, frame, stamp_nanos);
+      if (frame == frame_->name()) return urdf::Pose{};
+      return tf_->Find(frame_->name(), frame, stamp_nanos);
     };
     if (frames.Place(find)) has_news_ = true;
     Warn(i, monotonic_nanos);
@@ -195,7 +195,7 @@ void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
   if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
   if (std::exchange(slot.warned_of, problem) == problem) return;
   spdlog::warn("{}; does robot_state_publisher run, and is '{}' connected to it in TF?", problem,
-               reference_frame_);
+               frame_->name());
   const std::lock_guard<std::mutex> lock(mutex_);
   counters_[NameOf(i)].last_problem = problem;
 }

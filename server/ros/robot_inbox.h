@@ -21,12 +21,14 @@
 #include "server/ros/force_frames.h"
 #include "server/ros/robot_frames.h"
 #include "server/ros/robot_loader.h"
+#include "server/ros/scene_frame.h"
 
 namespace kinescope::ros_bridge {
 
 class RobotInbox {
  public:
-  RobotInbox(std::vector<GraphRobot> wanted, std::string reference_frame,
+  /// @param frame  in which the scene stands
+  RobotInbox(std::vector<GraphRobot> wanted, std::shared_ptr<const SceneFrame> frame,
              std::shared_ptr<const TfTree> tf);
 
   std::size_t size() const { return wanted_.size(); }
@@ -75,7 +77,7 @@ class RobotInbox {
   void TakeUp(std::size_t i, RobotState robot);
 
   const std::vector<GraphRobot> wanted_;
-  const std::string reference_frame_;
+  const std::shared_ptr<const SceneFrame> frame_;
   const std::shared_ptr<const TfTree> tf_;
 
   // Used by the thread that reads samples only.

@@ -21,6 +21,11 @@ void SampleSmoother::OnSurroundings(const RecordedSurroundings& all) {
   PassOn();
 }
 
+void SampleSmoother::OnMoment(const SourceMoment& moment) {
+  waiting_.push_back({moment, false});
+  PassOn();
+}
+
 // A repeated stamp has no motion of its own; a gap and a sample without motion end that before
 // them.
 void SampleSmoother::OnSample(const BodySample& sample) {
@@ -63,6 +68,8 @@ void SampleSmoother::PassOn() {
       to_.OnCharacter(*character);
     } else if (const auto* const surroundings = std::get_if<RecordedSurroundings>(&next.event)) {
       to_.OnSurroundings(*surroundings);
+    } else if (const auto* const moment = std::get_if<SourceMoment>(&next.event)) {
+      to_.OnMoment(*moment);
     } else {
       to_.OnObjects(std::get<ObjectsSample>(next.event));
     }

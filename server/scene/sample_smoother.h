@@ -20,6 +20,7 @@ class SmoothSampleSink {
   virtual void OnSample(const BodySample& sample, const loads::BodyMotion* motion) = 0;
   virtual void OnObjects(const ObjectsSample& sample) = 0;
   virtual void OnSurroundings(const RecordedSurroundings& all) = 0;
+  virtual void OnMoment(const SourceMoment& moment) = 0;
 };
 
 class SampleSmoother : public SampleSink {
@@ -30,12 +31,13 @@ class SampleSmoother : public SampleSink {
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
   void OnSurroundings(const RecordedSurroundings& all) override;
+  void OnMoment(const SourceMoment& moment) override;
   /// No sample follows: passes everything on.
   void End();
 
  private:
   struct Waiting {
-    std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings> event;
+    std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings, SourceMoment> event;
     bool has_motion = false;
   };
   struct Person {

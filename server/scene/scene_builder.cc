@@ -209,11 +209,48 @@ void SceneBuilder::OnObjects(const ObjectsSample& sample) {
   }
 }
 
+bool SceneBuilder::HasSurroundings() const {
+  const auto has_place = [](const RobotState& robot) {
+    return std::any_of(
+        robot.world_from_link.begin(), robot.world_from_link.end(),
+        [](const Eigen::Isometry3d& link) { return link.translation().allFinite(); });
+  };
+  return !current_.markers.empty() || !current_.images.empty() ||
+         std::any_of(current_.robots.begin(), current_.robots.end(), has_place);
+}
+
+void SceneBuilder::OnMoment(const SourceMoment& moment) {
+  if (!past_.empty()) return;
+  const bool is_live = moment.arrival_nanos != 0;
+  if (is_live && first_moment_ == 0 && !HasSurroundings()) return;
+  if (first_moment_ == 0) first_moment_ = moment.stamp_nanos;
+  current_.stamp_nanos = moment.stamp_nanos;
+  current_.arrival_nanos = moment.arrival_nanos;
+  current_.time_code_millis = (moment.stamp_nanos - first_moment_) / kNanosPerMilli;
+  current_.counter = current_.liveness == Liveness::kNoData ? 0 : current_.counter + 1;
+  Publish(Liveness::kNoPerson);
+}
+
+// Clouds may come thirty times a second, and change little.
+void SceneBuilder::FollowExtent() {
+  constexpr std::int64_t kEveryNanos = 250 * kNanosPerMilli;
+  if (!past_.empty()) {
+    current_.extent.setEmpty();
+    return;
+  }
+  const bool is_due = current_.extent.isEmpty() || current_.stamp_nanos == 0 ||
+                      std::abs(current_.stamp_nanos - extent_nanos_) >= kEveryNanos;
+  if (!is_due) return;
+  extent_nanos_ = current_.stamp_nanos;
+  current_.extent = extent_.Follow(ExtentOf(current_.robots, current_.markers));
+}
+
 void SceneBuilder::Publish(Liveness liveness) {
   current_.liveness = liveness;
   current_.number += 1;
   current_.source = source_;
   if (!robots_.empty() && current_.floor_z != robots_floor_z_) PlaceRobots();
+  FollowExtent();
   const auto scene = std::make_shared<SceneState>(current_);
   scene->people.reserve(people_.size());
   for (const auto& [id, person] : people_) {
@@ -288,7 +325,7 @@ void SceneBuilder::SetRobots(std::vector<RobotState> robots) {
 void SceneBuilder::SetMovingRobots(RobotList robots) {
   node_robots_ = std::move(robots);
   PlaceRobots();
-  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+  PublishIfIdle();
 }
 
 // Where a robot that moves has its links is part of each state, and no news of its own.
@@ -309,15 +346,22 @@ void SceneBuilder::PlaceRobots() {
   if (!are_the_same) current_.surroundings += 1;
 }
 
+// What comes while there are no samples is not left to them.
+void SceneBuilder::PublishIfIdle() {
+  const bool is_idle =
+      current_.liveness == Liveness::kNoData || current_.liveness == Liveness::kStale;
+  if (is_idle) Publish(current_.liveness);
+}
+
 void SceneBuilder::SetMarkers(MarkerList markers) {
   node_markers_ = std::move(markers);
   PlaceMarkers();
-  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+  PublishIfIdle();
 }
 
 void SceneBuilder::SetCameraBase(const urdf::Pose& pose) {
   current_.camera_base = pose;
-  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+  PublishIfIdle();
 }
 
 void SceneBuilder::SetImages(ImageList images) {
@@ -354,7 +398,9 @@ void SceneBuilder::OnCaughtUp() {
 }
 
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {
-  if (current_.liveness != Liveness::kLive || current_.arrival_nanos == 0) return;
+  const bool runs =
+      current_.liveness == Liveness::kLive || current_.liveness == Liveness::kNoPerson;
+  if (!runs || current_.arrival_nanos == 0) return;
   // Since it was processed: samples that wait in an overloaded machine are no silence.
   const double silent_secs = Secs(monotonic_nanos - current_.arrival_nanos - current_.waited_nanos);
   if (silent_secs >= options_.stale_secs) MarkStale();

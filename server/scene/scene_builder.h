@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/graph_view.h"
+#include "core/scene_extent.h"
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "server/loads/load_settings.h"
@@ -69,6 +70,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
   void OnObjects(const ObjectsSample& sample) override;
   void OnSurroundings(const RecordedSurroundings& all) override;
+  /// Ignored once a person has come. A live source has no moment before there is something to show.
+  void OnMoment(const SourceMoment& moment) override;
 
   /// Valid from the next sample on. @pre FindDefect(settings) is ""
   void SetLoads(const loads::LoadSettings& settings);
@@ -135,6 +138,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
+  void PublishIfIdle();
+  void FollowExtent();
+  bool HasSurroundings() const;
   void PlaceMarkers();
   void PlaceImages();
   void PlaceRobots();
@@ -168,6 +174,9 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::map<int, TrackedGroup> objects_;  // of the newest sample of each group
   std::int64_t waited_nanos_ = 0;        // see SetWaited()
   HeldHeading view_heading_;
+  HeldExtent extent_;
+  std::int64_t extent_nanos_ = 0;  // stamp of the state when it was looked at last
+  std::int64_t first_moment_ = 0;  // stamp of the first one without a person; 0: there was none
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
   RecordedSurroundings recorded_;

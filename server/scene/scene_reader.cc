@@ -101,6 +101,10 @@ void SceneReader::FanOut::OnSurroundings(const RecordedSurroundings& all) {
   for (SmoothSampleSink* const each : to) each->OnSurroundings(all);
 }
 
+void SceneReader::FanOut::OnMoment(const SourceMoment& moment) {
+  for (SmoothSampleSink* const each : to) each->OnMoment(moment);
+}
+
 std::shared_ptr<const SceneState> SceneReader::Next() {
   constexpr std::chrono::milliseconds kBetweenChecks(100);
   while (ready_.empty() && !ended_) {

@@ -73,6 +73,7 @@ class SceneReader {
     void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
     void OnObjects(const ObjectsSample& sample) override;
     void OnSurroundings(const RecordedSurroundings& all) override;
+    void OnMoment(const SourceMoment& moment) override;
     std::vector<SmoothSampleSink*> to;
   };
 

@@ -67,25 +67,40 @@ void PacedSource::EnqueueCharacter(int id, std::int64_t played) {
   characters_.erase(found);
 }
 
-template <class Sample>
-void PacedSource::Enqueue(Sample sample) {
-  if (std::exchange(is_round_empty_, false)) first_stamp_ = sample.stamp_nanos;
-  const auto [at, is_new] = tracks_.try_emplace(sample.character);
+// The track with the played time of its sample at `stamp_nanos`.
+PacedSource::Track& PacedSource::PlayedOf(int id, std::int64_t stamp_nanos) {
+  if (std::exchange(is_round_empty_, false)) first_stamp_ = stamp_nanos;
+  const auto [at, is_new] = tracks_.try_emplace(id);
   Track& track = at->second;
   ++track.samples;
-  std::int64_t played = round_offset_ + sample.stamp_nanos - first_stamp_;
+  const std::int64_t played = round_offset_ + stamp_nanos - first_stamp_;
   // A file may say anything, but a person's samples stay in their order.
-  if (!is_new) played = std::max(played, track.last_played);
-  track.last_played = played;
-  last_played_ = std::max(last_played_, played);
-  if (played < start_at_) return;  // what is beside it stays, and comes with a later sample
+  track.last_played = is_new ? played : std::max(played, track.last_played);
+  last_played_ = std::max(last_played_, track.last_played);
+  return track;
+}
 
-  sample.stamp_nanos = played;
+template <class Event>
+void PacedSource::EnqueueAt(std::int64_t played, Event event) {
+  if (surroundings_) queue_.emplace(played, *std::exchange(surroundings_, std::nullopt));
+  event.stamp_nanos = played;
+  queue_.emplace(played, std::move(event));
+}
+
+template <class Sample>
+void PacedSource::Enqueue(Sample sample) {
+  Track& track = PlayedOf(sample.character, sample.stamp_nanos);
+  // What is beside it stays, and comes with a later sample.
+  if (track.last_played < start_at_) return;
   sample.counter = track.counter.Add(sample.counter);
   sample.time_code_millis += round_offset_ / kNanosPerMilli;
-  EnqueueCharacter(sample.character, played);
-  if (surroundings_) queue_.emplace(played, *std::exchange(surroundings_, std::nullopt));
-  queue_.emplace(played, std::move(sample));
+  EnqueueCharacter(sample.character, track.last_played);
+  EnqueueAt(track.last_played, std::move(sample));
+}
+
+void PacedSource::OnMoment(const SourceMoment& moment) {
+  const Track& track = PlayedOf(kNobody, moment.stamp_nanos);
+  if (track.last_played >= start_at_) EnqueueAt(track.last_played, moment);
 }
 
 bool PacedSource::HasEnough() const {
@@ -143,6 +158,10 @@ void PacedSource::HandOn(Event& event, std::int64_t played, SampleSink& sink) {
     as_if_now(*sample);
     ++samples_;
     return sink.OnSample(*sample);
+  }
+  if (auto* moment = std::get_if<SourceMoment>(&event)) {
+    as_if_now(*moment);
+    return sink.OnMoment(*moment);
   }
   auto& objects = std::get<ObjectsSample>(event);
   as_if_now(objects);

@@ -53,9 +53,10 @@ class PacedSource : public Source, private SampleSink {
 
  private:
   // Read but not due yet. In queued samples the stamp is the played time.
-  using Event = std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings>;
+  using Event =
+      std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings, SourceMoment>;
 
-  // One person, or group of objects, by id.
+  // One person, or group of objects, by id; the moments without a person, as kNobody.
   struct Track {
     CounterSplice counter;
     std::int64_t last_played = 0;
@@ -66,7 +67,13 @@ class PacedSource : public Source, private SampleSink {
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
   void OnSurroundings(const RecordedSurroundings& all) override { surroundings_ = all; }
+  void OnMoment(const SourceMoment& moment) override;
 
+  static constexpr int kNobody = -1;
+
+  Track& PlayedOf(int id, std::int64_t stamp_nanos);
+  template <class Event>
+  void EnqueueAt(std::int64_t played, Event event);
   template <class Sample>
   void Enqueue(Sample sample);
   void EnqueueCharacter(int id, std::int64_t played);

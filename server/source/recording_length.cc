@@ -14,6 +14,7 @@ class Span : public SampleSink {
   void OnCharacter(const Character&) override {}
   void OnSample(const BodySample& sample) override { Add(sample.stamp_nanos); }
   void OnObjects(const ObjectsSample& objects) override { Add(objects.stamp_nanos); }
+  void OnMoment(const SourceMoment& moment) override { Add(moment.stamp_nanos); }
 
   std::optional<std::int64_t> length;
 

@@ -59,7 +59,7 @@ until curl -sf "http://127.0.0.1:$http_port/api/v1/state" | grep -q '"liveness":
 "$kinescope" stream demo:lift --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
 if [ -x "$build/tests/bench/ros_latency" ]; then
   before=$(cpu_ticks "$server")
-  echo "at 240 Hz, sample received to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
+  echo "at 240 Hz, sample received to ROS subscriber: $("$build/tests/bench/ros_latency" 2400 240 /kinescope/joint_states)"
   echo "  server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
 fi
 kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true

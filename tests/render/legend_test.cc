@@ -86,6 +86,19 @@ TEST(Legend, ListsOnlyWhatThePictureShowsWithItsColours) {
                     Not(Contains("marker goal"))));
 }
 
+TEST(Legend, OfASceneWithoutPeopleHasNoLoads) {
+  SceneState state;
+  state.liveness = Liveness::kNoPerson;
+  state.stamp_nanos = 1'000'000'000;
+  EXPECT_TRUE(LegendOf(state, {}).rows.empty());
+  state.robots = {Robot("arm")};
+  EXPECT_FALSE(HasOnlyRobots(state)) << "it has a time";
+  const LegendContent content = LegendOf(state, {});
+  EXPECT_EQ(NamesOf(content), std::vector<std::string>{"robot arm"});
+  EXPECT_FALSE(content.has_classes());
+  EXPECT_EQ(content.title, kSymbolsTitle);
+}
+
 TEST(Legend, NamesToolsInTheHandsWithTheColourOfThoseThatAreDrawn) {
   SceneState state = SceneWith(Posture::kStanding);
   const std::size_t plain = LegendOf(state, SceneLook()).rows.size();

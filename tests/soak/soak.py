@@ -133,7 +133,7 @@ class Soak:
     def watch(self):
         """What a viewer of the page and a ROS subscriber got: {'states': (rate, p95 ms), 'pictures': ..., 'lost': samples}."""
         count = RATE_HZ * WATCHED_SECS
-        listener = subprocess.Popen([self.build / 'tests/bench/ros_latency', '/kinescope/joint_states', str(count)],
+        listener = subprocess.Popen([self.build / 'tests/bench/ros_latency', str(count), str(RATE_HZ), '/kinescope/joint_states'],
                                     env=self.environment, stdout=subprocess.PIPE, text=True)
         out = subprocess.run([self.build / 'tests/bench/page_viewers', str(self.http), '1', str(WATCHED_SECS), 'pictures'],
                              capture_output=True, text=True, check=False).stdout
@@ -142,8 +142,8 @@ class Soak:
             what, rest = line.split(':', 1)
             figures[what] = (float(rest.split()[0]), float(rest.split('p95 ')[1].split(',')[0]))
         heard = listener.communicate(timeout=60)[0]
-        rate = float(heard.split(', ')[1].split()[0])
-        figures['lost'] = round((count - 1) / rate * RATE_HZ) - (count - 1)
+        came, sent = heard.split(' samples')[0].split(' of ')
+        figures['lost'] = int(sent) - int(came)
         return figures
 
     def second_suit(self):

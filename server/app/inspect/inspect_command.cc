@@ -188,8 +188,11 @@ mvn::InspectionReport InspectFile(const InspectOptions& options) {
     }
     case mvn::RecordingKind::kRosBag:
       if (*options.source != "-") {
-        report = InspectSamples(*ros_bridge::OpenBag(*options.source, {{}, {}, *options.tf_topic}),
-                                *options.seconds, true);
+        GraphView view;
+        view.tf_topic = *options.tf_topic;
+        view.needs_person = false;
+        report =
+            InspectSamples(*ros_bridge::OpenBag(*options.source, view), *options.seconds, true);
         report.format = "ROS 1 bag";
         return report;
       }

@@ -57,6 +57,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override { builder_.OnObjects(sample); }
   void OnSurroundings(const RecordedSurroundings& all) override { builder_.OnSurroundings(all); }
+  void OnMoment(const SourceMoment& moment) override { builder_.OnMoment(moment); }
 
  private:
   void OnHandLoad(int character, const HandLoad& load) override;

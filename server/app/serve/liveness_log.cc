@@ -19,6 +19,9 @@ void LivenessLog::OnState(const SceneState& state) {
   logged_ = state.liveness;
   switch (state.liveness) {
     case Liveness::kNoData: spdlog::info("waiting for data from {}", state.source); break;
+    case Liveness::kNoPerson:
+      spdlog::info("no person in {} yet: what else is there is shown", state.source);
+      break;
     case Liveness::kLive:
       spdlog::info("live: {} from {}", FirstPersonIn(state), state.source);
       break;

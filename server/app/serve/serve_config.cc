@@ -240,6 +240,7 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   const std::string& camera_frame = options.camera_moves.camera_tf->frame;
   config.scene.camera_frame = camera_frame;
   if (is_bag) {
+    config.source.bag.needs_person = false;
     config.source.bag.topics = *options.marker_topics;
     config.source.bag.camera_frame = camera_frame;
   }

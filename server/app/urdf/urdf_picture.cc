@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/scene_extent.h"
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "render/camera/camera.h"
@@ -107,6 +108,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
     throw SourceError(*options.file + ": has no <visual>, so there is nothing to draw");
   }
   StandOnFloor(robot);
+  scene.extent = ExtentOf(scene.robots, {});
   const RenderRequest request = planner.Only(scene);
   const render::Image image = renderer->Render(request.state, request.camera, request.spec);
   std::map<std::string, std::string> facts = DrawnBy(*renderer);

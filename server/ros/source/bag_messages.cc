@@ -13,14 +13,6 @@ constexpr std::size_t kMessageOverhead = 160;
 BagMessages::BagMessages(InputFile file, const BagReader::IsWanted& is_wanted)
     : reader_(std::move(file), is_wanted), is_wanted_(is_wanted) {}
 
-std::map<std::string, std::uint64_t> BagMessages::others() const {
-  std::map<std::string, std::uint64_t> by_topic;
-  for (const auto& [connection, messages] : others_) {
-    by_topic[connection->topic + " (" + connection->type + ")"] += messages;
-  }
-  return by_topic;
-}
-
 void BagMessages::Fill() {
   BagMessage message;
   while (!has_ended_ && window_bytes_ < kWindowBytes) {

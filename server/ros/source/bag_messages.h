@@ -28,8 +28,8 @@ class BagMessages {
   std::uint64_t read() const { return read_; }  // messages, wanted or not
   /// Damaged records so far, by reason.
   const std::map<std::string, std::uint64_t>& defects() const { return reader_.defects(); }
-  /// Messages that were not wanted so far, by "topic (type)".
-  std::map<std::string, std::uint64_t> others() const;
+  /// Messages that were not wanted so far.
+  const std::map<const BagConnection*, std::uint64_t>& others() const { return others_; }
   /// Found so far, by the number that the bag gives them.
   const std::map<std::uint32_t, BagConnection>& connections() const {
     return reader_.connections();

@@ -6,12 +6,14 @@
 #include <tf2_msgs/TFMessage.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "core/system/errors.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
+#include "server/ros/scene_frame.h"
 #include "server/ros/source/bag_messages.h"
 #include "server/ros/source/bag_surroundings.h"
 #include "server/ros/source/link_states_person.h"
@@ -22,7 +24,8 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr int kMessagesPerPoll = 256;
-constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
+constexpr std::int64_t kMomentEveryNanos = 16'000'000;  // for any frame rate
+constexpr std::int64_t kNamesNanos = 10'000'000'000;    // read on opening for frame names
 
 constexpr char kUnreadableTransforms[] =
     "transforms that are truncated or have a wrong length field";
@@ -58,16 +61,17 @@ class BagSource : public Source {
   BagSource(const std::string& path, const GraphView& view)
       : name_(path),
         tf_topic_(view.tf_topic.empty() ? "/tf" : WithSlash(view.tf_topic)),
+        needs_person_(view.needs_person),
         surroundings_(view),
         messages_(OpenBagFile(path),
                   [this](const BagConnection& connection) { return IsUsed(connection); }) {
     ReadNames();
-    world_ = FindWorld();
+    world_ = has_person_ ? FindWorld() : FindRoot();
   }
 
   // A picture may need the beginning of the bag alone, so the end is too late to say it.
   ~BagSource() override {
-    if (counters_.samples > 0) surroundings_.WarnOfProblems(name_);
+    if (counters_.samples > 0 || moment_nanos_ != 0) surroundings_.WarnOfProblems(name_);
   }
   BagSource(const BagSource&) = delete;
   BagSource& operator=(const BagSource&) = delete;
@@ -97,12 +101,17 @@ class BagSource : public Source {
   /// The frame of the first sample, in which markers stand from the beginning; "" if none comes
   /// soon. @pre people_ are known
   std::string FindWorld();
+  /// Of a bag without people: the root of its frames; "" if it has none, then it is the frame of
+  /// what is shown first.
+  std::string FindRoot();
+  bool ShowsSomething(const BagMessages& all) const;
   /// @throws SourceError unless the bag ends as it should, or is only truncated.
   void CheckEnding(const BagMessages& messages) const;
   /// Why nothing of `message` can be used, or null; otherwise it is in message_.
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message, SampleSink& sink);
   void TakeLinkStates(const BagMessage& message, SampleSink& sink);
+  void PassMoment(std::int64_t now_nanos, SampleSink& sink);
   State End();
 
   /// Why the bag has no person, and what to do about it.
@@ -110,6 +119,8 @@ class BagSource : public Source {
 
   const std::string name_;
   const std::string tf_topic_;
+  const bool needs_person_;
+  bool has_person_ = true;
   BagSurroundings surroundings_;
   BagMessages messages_;
   tf2_msgs::TFMessage message_;
@@ -118,6 +129,7 @@ class BagSource : public Source {
   MotionJoiner joiner_;
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
   std::string world_;
+  std::int64_t moment_nanos_ = 0;  // of the newest moment that was passed on; 0: none was
   bool has_ended_ = false;
   SourceCounters counters_;
   double rate_hz_ = 0;
@@ -162,6 +174,10 @@ void BagSource::ReadNames() {
     rate_hz_ = of_link_states.begin()->second.rate_hz();
     return;
   }
+  if (people_.people().empty() && !needs_person_ && ShowsSomething(ahead)) {
+    has_person_ = false;
+    return;
+  }
   if (people_.people().empty()) {
     if (has_ended) CheckEnding(ahead);
     if (ahead.ending().kind == BagReader::Ending::Kind::kTruncated && has_ended) {
@@ -174,25 +190,39 @@ void BagSource::ReadNames() {
   rate_hz_ = appearances[people_.people().front().frames[urdf::kPelvis]].rate_hz();
 }
 
+bool BagSource::ShowsSomething(const BagMessages& all) const {
+  return std::any_of(all.connections().begin(), all.connections().end(),
+                     [&](const auto& each) { return surroundings_.IsUsed(each.second); });
+}
+
 std::string BagSource::WhyNobody(const BagMessages& all) const {
-  std::set<std::string> others;
+  std::set<std::string> others, shown;
   bool has_topic = false;
   for (const auto& [number, connection] : all.connections()) {
+    if (BagSurroundings::CanBeShown(connection)) shown.insert(WithSlash(connection.topic));
     if (IsMoving(connection.topic)) {
       has_topic = true;
     } else if (HasTransformType(connection) && !IsStatic(connection.topic)) {
       others.insert(connection.topic);
     }
   }
-  const std::string why =
+  std::string why =
       has_topic ? fmt::format(
                       "no person found on {}; expected 23 frames with segment names, such "
                       "as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe",
                       tf_topic_)
                 : fmt::format("contains neither {} nor link_states, so no poses", tf_topic_);
-  if (others.empty()) return has_topic ? why : why + "; record it with `rosbag record /tf`";
-  return fmt::format("{}. It has transforms on {}: choose {} with --tf_topic", why,
-                     fmt::join(others, ", "), others.size() == 1 ? "that" : "one of these");
+  if (!others.empty()) {
+    why += fmt::format(". It has transforms on {}: choose {} with --tf_topic",
+                       fmt::join(others, ", "), others.size() == 1 ? "that" : "one of these");
+  } else if (!has_topic) {
+    why += "; record it with `rosbag record /tf`";
+  }
+  if (!needs_person_ && !shown.empty()) {
+    why += fmt::format(". What else is in it is shown if you name it: --marker_topics={}",
+                       fmt::join(shown, ","));
+  }
+  return why;
 }
 
 std::string BagSource::FindWorld() {
@@ -219,6 +249,19 @@ std::string BagSource::FindWorld() {
   return people.root();
 }
 
+std::string BagSource::FindRoot() {
+  BagMessages ahead(OpenBagFile(name_),
+                    [this](const BagConnection& connection) { return HasTransforms(connection); });
+  TfTree tf;
+  std::int64_t end = 0;
+  for (BagMessage message; ahead.Next(message);) {
+    if (end == 0) end = message.recorded_nanos + kNamesNanos;
+    if (message.recorded_nanos > end) break;
+    if (Decode(message) == nullptr) tf.Add(message_, IsStatic(message.connection->topic));
+  }
+  return RootOf(tf.frames(), "");
+}
+
 void BagSource::CheckEnding(const BagMessages& messages) const {
   const BagReader::Ending& ending = messages.ending();
   switch (ending.kind) {
@@ -240,14 +283,18 @@ void BagSource::CheckEnding(const BagMessages& messages) const {
 Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) {
   if (has_ended_) return State::kEnded;
   const std::uint64_t samples_before = counters_.samples;
+  const std::int64_t moment_before = moment_nanos_;
   BagMessage message;
-  for (int i = 0; i < kMessagesPerPoll && counters_.samples == samples_before; ++i) {
+  for (int i = 0; i < kMessagesPerPoll && counters_.samples == samples_before &&
+                  moment_nanos_ == moment_before;
+       ++i) {
     if (!messages_.Next(message)) {
       joiner_.SetSink(&sink);
       joiner_.Flush();
       return End();
     }
     Take(message, sink);
+    if (!has_person_) PassMoment(message.recorded_nanos, sink);
   }
   return State::kMore;
 }
@@ -285,6 +332,14 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   }
 }
 
+void BagSource::PassMoment(std::int64_t now_nanos, SampleSink& sink) {
+  if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kMomentEveryNanos) return;
+  moment_nanos_ = now_nanos;
+  if (world_.empty()) world_ = surroundings_.FirstFrame();
+  surroundings_.Update(now_nanos, world_, name_, sink);
+  sink.OnMoment({now_nanos, 0});
+}
+
 void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
   const bool is_whole = message.bytes.size() == message.size;
   if (!is_whole || !kinescope::ros_bridge::Decode(message.bytes, link_states_)) {
@@ -308,8 +363,10 @@ void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
 
 SourceCounters BagSource::counters() const {
   SourceCounters counters = counters_;
-  for (const auto& [topic, messages] : messages_.others()) {
-    counters.ignored["topic " + topic] += messages;
+  for (const auto& [connection, messages] : messages_.others()) {
+    std::string what = fmt::format("topic {} ({})", connection->topic, connection->type);
+    if (BagSurroundings::CanBeShown(*connection)) what += "; --marker_topics shows it";
+    counters.ignored[what] += messages;
     counters.datagrams += messages;
   }
   for (const auto& [defect, records] : messages_.defects()) {

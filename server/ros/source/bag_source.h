@@ -38,6 +38,8 @@ namespace kinescope::ros_bridge {
 ///   (skeleton_watch.h).
 /// - A bag without people on /tf has one person for each topic of LinkStateArray, whatever its
 /// name.
+/// - A bag without any person, if `view` does without and something of it is shown: its messages
+///   make moments in place of samples, in the frame of its TF that most others hang on.
 /// - Markers of other nodes, and what `view` names, are delivered with the samples
 ///   (bag_surroundings.h). Its robots have no parameters: a bag has none.
 /// - counters(): a datagram is a message, or a damaged record; other topics are counted in

@@ -83,6 +83,11 @@ BagSurroundings::BagSurroundings(const GraphView& view)
   }
 }
 
+bool BagSurroundings::CanBeShown(const BagConnection& connection) {
+  const std::string& type = connection.md5sum;
+  return IsImageType(type) || (TopicMarkers::IsShown(type, {}) && !HasJoints(connection));
+}
+
 bool BagSurroundings::IsUsed(const BagConnection& connection) const {
   const std::string topic = WithSlash(connection.topic);
   if (IsOne(connection) || IsArray(connection)) {

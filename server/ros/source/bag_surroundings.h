@@ -36,8 +36,13 @@ class BagSurroundings {
   BagSurroundings(const BagSurroundings&) = delete;
   BagSurroundings& operator=(const BagSurroundings&) = delete;
 
+  /// Whether a view that names its topic shows its messages.
+  static bool CanBeShown(const BagConnection& connection);
   /// Whether its messages are used.
   bool IsUsed(const BagConnection& connection) const;
+
+  /// The frame of the first thing that is shown; "": there is none yet.
+  std::string FirstFrame() const { return store_.FirstFrame(); }
 
   /// Takes a message of such a connection. What is not used is counted by reason: the markers that
   /// Kinescope itself published, which a scene draws by itself, in `ignored`. @pre IsUsed()

@@ -97,6 +97,7 @@ class GraphSource : public Source {
     sink_ = &sink;
     topics_.Take(timeout);
     sink_ = nullptr;
+    PassMoment(sink);
     FollowClock();
     clocks_.Update(MonotonicNanos(), wall_.nanos());
     return topics_.status().shutdown_requested ? State::kEnded : State::kMore;
@@ -119,6 +120,17 @@ class GraphSource : public Source {
   bool is_live() const override { return true; }
 
  private:
+  // Before the first person, time passes while frames come, and where there are none at all.
+  void PassMoment(SampleSink& sink) {
+    constexpr std::int64_t kEveryNanos = 33 * kNanosPerMilli, kQuietNanos = 2 * kNanosPerSecond;
+    const std::int64_t now = MonotonicNanos();
+    if (counters_.samples > 0 || now - moment_nanos_ < kEveryNanos) return;
+    const bool is_quiet = frames_nanos_ != 0 && now - frames_nanos_ > kQuietNanos;
+    if (is_quiet || !topics_.status().master_answers) return;
+    moment_nanos_ = now;
+    sink.OnMoment({now + wall_.nanos(), now});
+  }
+
   // Once per message: the next stamps of nodes on this machine are of the new time.
   void FollowClock() {
     const std::int64_t before = MonotonicNanos(), wall = WallNanos(), now = MonotonicNanos();
@@ -158,6 +170,7 @@ class GraphSource : public Source {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
       if (index > 0) return people_.TakeStatic(transforms_, counters_);
       const Arrival now = Now();
+      frames_nanos_ = now.monotonic_nanos;
       const std::int64_t stamp = NewestStamp();
       const std::int64_t shift = ShiftOf(event, stamp, now);
       for (auto& transform : transforms_.transforms) Shift(transform.header.stamp, shift);
@@ -228,6 +241,8 @@ class GraphSource : public Source {
 
   const std::string description_;
   WallOffset wall_{WallNanos(), MonotonicNanos()};
+  std::int64_t frames_nanos_ = 0;       // when the newest frames of TF came; monotonic clock
+  std::int64_t moment_nanos_ = 0;       // of the newest moment that was passed on; the same
   std::int64_t newest_arrival_ = 0;     // wall clock; goes back only if that is set
   std::uint64_t clock_steps_ = 0;       // times that it was set
   RosClock clock_;                      // without a time unless it is simulated

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { axesOf, cameraAt, framedPeople, middleOf, ownAim } from '../../../web/cameras.js';
+import { axesOf, cameraAt, extentAim, framedPeople, middleOf, ownAim } from '../../../web/cameras.js';
 
 const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
 const top = { name: 'top', position: [0, 0, 5.6], target: [0, 0, 1], up: [1, 0, 0], vertical_fov_rad: 0.5 };
@@ -27,6 +27,16 @@ test('each named view looks in the direction of the server picture, also of a pe
     forward.forEach((v, i) => assert.ok(Math.abs(v - way[i] / far) < lean, `${view.name}: ${forward}`));
     assert.ok(Math.abs(right[2]) < 1e-9, `${view.name} is level`);
     assert.ok(up.reduce((sum, v, i) => sum + v * view.up[i], 0) > 0, view.name);
+  }
+});
+
+test('a named view of a scene without people shows all of it, as the server picture does', () => {
+  const { views, extents } = JSON.parse(readFileSync(new URL('named_views.json', import.meta.url), 'utf8'));
+  for (const { name, aspect, position, target, ...extent } of extents) {
+    const view = views.find((v) => v.name === name && v.radius === 0 && v.aspect > 1);
+    const aim = extentAim(view, axesOf(view, 0), extent, aspect);
+    near(aim.target, target);
+    aim.position.forEach((v, i) => assert.ok(Math.abs(v - position[i]) < 1e-5, `${name}: ${aim.position}`));
   }
 });
 

@@ -70,6 +70,9 @@ test('the header has no numbers before the first sample', () => {
   const dashes = { rate: '–', latency: '–', latencyP95: '', sample: '–', timeCode: '–' };
   assert.deepEqual(streamReadingsOf(null, null, false), { ...dashes, viewers: '' });
   assert.deepEqual(streamReadingsOf({ ...stream, liveness: 'no data' }, null, false), { ...dashes, viewers: '1 viewer' });
+  const nobody = streamReadingsOf({ ...stream, liveness: 'no person' }, null, false);
+  assert.equal(nobody.sample, '–');
+  assert.notEqual(nobody.timeCode, '–', 'time goes on');
 });
 
 test('missing meshes are counted', () => {

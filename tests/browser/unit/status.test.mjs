@@ -88,6 +88,12 @@ test('the status names the expected source before the first sample', () => {
   assert.equal(statusOf({ ...good, liveness: 'no data', source: '' }).banner, 'Waiting for the source');
 });
 
+test('the status is live without a person, if the source has something else to show', () => {
+  const status = statusOf({ ...good, liveness: 'no person' });
+  assert.deepEqual([status.level, status.word, status.note, status.banner, status.isFresh], ['live', 'Live', 'no person yet', '', true]);
+  assert.equal(statusOf({ ...good, liveness: 'no person', ageMillis: 5000 }).level, 'stale');
+});
+
 test('the status before the first connection is waiting, or rejected with the reason', () => {
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(statusOf(start).level, 'wait');

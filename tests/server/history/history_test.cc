@@ -116,6 +116,7 @@ TEST(History, KeepsRobotsWhereTheyWereAndTheMarkersThatWereThere) {
     const auto state = StateAt(number);
     state->robots = {ArmAt(number)};
     if (number >= 60) state->camera_base = urdf::Pose{{0.5, 1, 2}, Eigen::Quaterniond(0, 0, 0, 1)};
+    if (number < 60) state->extent = {Eigen::Vector3d(-1, 0, 0.5), Eigen::Vector3d(2, 3, 4)};
     state->markers = {wall};
     if (number >= 60) state->markers.push_back(goal);
     state->surroundings = number >= 60 ? 2 : 1;
@@ -126,6 +127,8 @@ TEST(History, KeepsRobotsWhereTheyWereAndTheMarkersThatWereThere) {
   EXPECT_EQ(before->markers, MarkerList({wall}));
   EXPECT_EQ(before->surroundings, 1u);
   EXPECT_FALSE(before->camera_base);
+  EXPECT_TRUE(before->extent.max().isApprox(Eigen::Vector3d(2, 3, 4), 1e-5));
+  EXPECT_TRUE(after->extent.isEmpty());
   ExpectSamePose(after->camera_base.value(), {{0.5, 1, 2}, Eigen::Quaterniond(0, 0, 0, 1)});
   EXPECT_EQ(after->markers, MarkerList({wall, goal}));
   EXPECT_EQ(after->surroundings, 2u);

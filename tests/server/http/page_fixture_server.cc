@@ -251,6 +251,7 @@ json Describe() {
       Eigen::Isometry3d(Eigen::Translation3d(3, 2, 1) * Eigen::Quaterniond(0.8, 0.36, -0.48, 0))};
   state.robots = {robot};
   state.camera_base = urdf::Pose{{4, 5, 6}, Eigen::Quaterniond(0.8, 0, 0, 0.6)};
+  state.extent = {Eigen::Vector3d(-1, 0, 0.5), Eigen::Vector3d(2, 3, 4)};
   json people = json::array();
   for (const PersonState& person : state.people) {
     json links = json::array(), loads = json::array();
@@ -340,7 +341,8 @@ json Describe() {
             {"objects", objects},
             {"ghosts", json::array()},
             {"robots", {{{{"position", {3, 2, 1}}, {"quaternion", {0.36, -0.48, 0, 0.8}}}}}},
-            {"cameraBase", {{"position", {4, 5, 6}}, {"quaternion", {0, 0, 0.6, 0.8}}}}}},
+            {"cameraBase", {{"position", {4, 5, 6}}, {"quaternion", {0, 0, 0.6, 0.8}}}},
+            {"extent", {{"min", {-1, 0, 0.5}}, {"max", {2, 3, 4}}}}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},

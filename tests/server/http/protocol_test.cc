@@ -243,6 +243,20 @@ TEST(StateMessage, HasTheFrameThatTheOwnCameraGoesWithAtItsEnd) {
   for (const float part : {0.0F, 0.0F, 0.8F, 0.6F}) EXPECT_EQ(in.Get<float>(), part);
 }
 
+TEST(StateMessage, EndsWithTheExtentOfASceneWithoutPeople) {
+  SceneState state;
+  const std::size_t without = EncodeState(state, {0, 1, {}}).size();
+  EXPECT_EQ(EncodeState(state, {0, 1, {}})[70], 0);
+  state.extent = {Eigen::Vector3d(-1, 0, 0.5), Eigen::Vector3d(2, 3, 4)};
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
+  EXPECT_EQ(bytes[70], 1);
+  ASSERT_EQ(bytes.size(), without + 6 * sizeof(float));
+  const Bytes last(bytes.end() - 6 * sizeof(float), bytes.end());
+  Reader in(last);
+  EXPECT_EQ(in.GetVector(), Eigen::Vector3d(-1, 0, 0.5));
+  EXPECT_EQ(in.GetVector(), Eigen::Vector3d(2, 3, 4));
+}
+
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {
   EXPECT_LT(EncodeState(Scene(), {0, 1, {}}).size(), 1500u);
 }

@@ -327,6 +327,46 @@ TEST(CameraController, GoesAtOneDistanceWithPeopleWhoWouldBeMuchSmallerOtherwise
   EXPECT_LT(render::ShownHeight(first), 3);
 }
 
+SceneState WithoutPeople(double secs, const Vector3d& lowest, const Vector3d& highest) {
+  SceneState state;
+  state.stamp_nanos = 5'000'000'000 + std::llround(1e9 * secs);
+  state.extent = {lowest, highest};
+  return state;
+}
+
+void ExpectShown(const Eigen::AlignedBox3d& box, const render::Camera& camera, int width) {
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    const render::Projected at = render::Project(corner, camera, width, 900);
+    EXPECT_TRUE(at.x_px > 0 && at.x_px < width && at.y_px > 0 && at.y_px < 900) << i;
+  }
+}
+
+TEST(CameraController, ShowsWhatThereIsWithoutPeople) {
+  for (const Vector3d& highest : {Vector3d(0.2, 0.1, 0.3), Vector3d(40, 30, 5)}) {
+    const SceneState scene = WithoutPeople(0, Vector3d::Zero(), highest);
+    for (const int width : {1600, 500}) {
+      const double aspect = width / 900.0;
+      CameraController controller(ParseCamera("iso"), {}, Fit::kNow);
+      ExpectShown(scene.extent, controller.Only(scene, 0, aspect), width);
+      ExpectShown(scene.extent, controller.Aim(scene, aspect), width);
+      ExpectShown(scene.extent, controller.AimLive(scene, {aspect, {}}, std::nullopt), width);
+    }
+  }
+}
+
+TEST(CameraController, StandsStillInAClipWithoutPeople) {
+  CameraController controller(ParseCamera("left"), {}, Fit::kClip);
+  SceneState nothing = WithoutPeople(0, Vector3d::Zero(), Vector3d::Zero());
+  nothing.extent.setEmpty();
+  const SceneState early = WithoutPeople(1, {0, 0, 0}, {1, 1, 1}),
+                   late = WithoutPeople(2, {3, 0, 0}, {4, 1, 1});
+  for (const SceneState& scene : {nothing, early, late}) controller.Prescan(scene);
+  const render::Camera camera = controller.Aim(nothing, kAspect);
+  ExpectShown(early.extent.merged(late.extent), camera, 1600);
+  EXPECT_EQ(controller.Aim(late, kAspect).position, camera.position);
+}
+
 TEST(CameraController, FitsByItselfOnlyWhatIsNamed) {
   const SceneState scene = SceneAt(0, 0);
   CameraOptions off;

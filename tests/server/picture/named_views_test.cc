@@ -46,6 +46,20 @@ TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
   for (const std::string& name : render::CameraNames()) EXPECT_GT(views[name], 1) << name;
 }
 
+TEST(NamedViews, OfScenesWithoutPeopleMatchThePageToo) {
+  std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
+  const nlohmann::json page = nlohmann::json::parse(file);
+  ASSERT_GT(page.at("extents").size(), 1u);
+  for (const auto& view : page.at("extents")) {
+    SceneState state;
+    state.extent = {ToVector(view.at("min")), ToVector(view.at("max"))};
+    const render::Camera camera = render::WithWholeExtent(
+        render::NamedCamera(view.at("name"), state), view.at("aspect").get<double>());
+    EXPECT_NEAR((camera.position - ToVector(view.at("position"))).norm(), 0, 1e-5) << view;
+    EXPECT_NEAR((camera.target - ToVector(view.at("target"))).norm(), 0, 1e-9) << view;
+  }
+}
+
 // RViz's orbit: perspective with a field of view of 45 degrees, about a point that goes with the
 // target frame but does not turn with it.
 TEST(NamedViews, AreContainedInTheRvizConfiguration) {

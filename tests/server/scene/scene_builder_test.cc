@@ -72,6 +72,63 @@ TEST(SceneBuilder, StandsRobotsOnTheFloorAndCountsTheChangesBesideThePeople) {
   EXPECT_EQ(built.last().surroundings, before + 1);
 }
 
+SourceMoment LiveMoment(double secs) {
+  const std::int64_t nanos = std::llround(secs * 1e9) + 1;
+  return {nanos, nanos};
+}
+
+std::shared_ptr<const RobotState> ArmAt(const Vector3d& place) {
+  RobotState arm;
+  arm.model = std::make_shared<urdf::RobotModel>();
+  arm.moves = true;
+  arm.world_from_link = {Eigen::Isometry3d(Eigen::Translation3d(place))};
+  arm.bounds = {place, place + Vector3d(0, 0, 1)};
+  return std::make_shared<const RobotState>(arm);
+}
+
+TEST(SceneBuilder, WithoutAPersonShowsWhatElseIsThere) {
+  Built built;
+  built.builder.Start();
+  built.builder.OnMoment(LiveMoment(1));
+  EXPECT_EQ(built.last().liveness, Liveness::kNoData) << "there is nothing";
+  built.builder.SetMovingRobots({ArmAt({3, 0, 0})});
+  built.builder.OnMoment(LiveMoment(2));
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson);
+  EXPECT_EQ(built.last().stamp_nanos, LiveMoment(2).stamp_nanos);
+  EXPECT_EQ(built.last().extent.max(), Vector3d(3, 0, 1));
+  built.builder.SetMovingRobots({ArmAt({9, 0, 0})});
+  built.builder.OnMoment(LiveMoment(2.5));
+  EXPECT_EQ(built.last().time_code_millis, 500);
+  EXPECT_EQ(built.last().counter, 1u);
+  EXPECT_GT(built.last().extent.max().x(), 9);
+  built.builder.SetMovingRobots({});
+  built.builder.OnMoment(LiveMoment(3));
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson) << "what there was may come again";
+
+  built.builder.Tick(LiveMoment(3.4).arrival_nanos);
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson);
+  built.builder.Tick(LiveMoment(3.6).arrival_nanos);
+  EXPECT_EQ(built.last().liveness, Liveness::kStale);
+  built.builder.OnMoment(LiveMoment(4));
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson);
+
+  built.builder.OnSample(SampleOf("lift", 5));
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+  EXPECT_TRUE(built.last().extent.isEmpty()) << "people are framed";
+  const std::size_t before = built.states.size();
+  built.builder.OnMoment(LiveMoment(6));
+  EXPECT_EQ(built.states.size(), before) << "samples make the time";
+}
+
+TEST(SceneBuilder, HasTheMomentsOfARecordingFromItsBeginning) {
+  Built built;
+  built.builder.Start();
+  built.builder.OnMoment({1'000'000'000, 0});
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson);
+  EXPECT_EQ(built.last().counter, 0u);
+  EXPECT_TRUE(built.last().extent.isEmpty());
+}
+
 TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
   Built built;
   auto arm = std::make_shared<RobotState>();

@@ -41,6 +41,23 @@ class ShortFile : public Source {
   int next_ = 0;
 };
 
+// Three moments without a person, 2 ms apart, and what is new with the second.
+class FileWithoutPeople : public Source {
+ public:
+  State Poll(milliseconds, SampleSink& sink) override {
+    if (next_ == 3) return State::kEnded;
+    if (next_ == 1) sink.OnSurroundings({{std::make_shared<const SceneMarker>()}, {}, {}});
+    sink.OnMoment({1'000'000'000 + 2'000'000 * next_++, 0});
+    return State::kMore;
+  }
+  SourceCounters counters() const override { return {}; }
+  std::string description() const override { return "nobody"; }
+  bool is_live() const override { return false; }
+
+ private:
+  int next_ = 0;
+};
+
 struct Collector : SampleSink {
   void OnCharacter(const Character&) override { ++characters; }
   void OnSample(const BodySample& sample) override { samples.push_back(sample); }
@@ -77,6 +94,31 @@ TEST(PacedSource, DeliversEverySampleOnceAndNotTooEarly) {
     EXPECT_GE(collector.samples[index].arrival_nanos - collector.samples[0].arrival_nanos,
               2'000'000 * i - 200'000);
   }
+}
+
+TEST(PacedSource, PlaysMomentsWithoutAPersonInALoop) {
+  struct : SampleSink {
+    void OnCharacter(const Character&) override {}
+    void OnSample(const BodySample&) override {}
+    void OnSurroundings(const RecordedSurroundings&) override {
+      shown_with.push_back(stamps.size());
+    }
+    void OnMoment(const SourceMoment& moment) override {
+      EXPECT_GT(moment.arrival_nanos, 0);
+      stamps.push_back(moment.stamp_nanos);
+    }
+    std::vector<std::int64_t> stamps;
+    std::vector<std::size_t> shown_with;
+  } sink;
+  const auto open = [] { return std::make_unique<FileWithoutPeople>(); };
+  PacedSource source(open(), open);
+  while (sink.stamps.size() < 6) (void)source.Poll(milliseconds(1000), sink);
+  std::vector<std::int64_t> millis;
+  for (const std::int64_t stamp : sink.stamps) {
+    millis.push_back((stamp - sink.stamps.front()) / kNanosPerMilli);
+  }
+  EXPECT_THAT(millis, ElementsAre(0, 2, 4, 6, 8, 10));
+  EXPECT_THAT(sink.shown_with, ElementsAre(1u, 4u)) << "with the moment that follows";
 }
 
 TEST(PacedSource, ReturnsWithoutASampleWhenTheTimeoutIsShorter) {

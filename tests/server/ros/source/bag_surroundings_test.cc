@@ -13,11 +13,13 @@
 #include <visualization_msgs/InteractiveMarkerInit.h>
 #include <visualization_msgs/InteractiveMarkerUpdate.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "core/system/errors.h"
 #include "server/ros/markers.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/transforms.h"
@@ -160,6 +162,102 @@ TEST_F(BagSurroundingsTest, AreRobotsWhereTransformsAndJointStatesHaveTheirLinks
   EXPECT_EQ(recorded.counters.ignored.count("topic /other/joint_states (sensor_msgs/JointState)"),
             1u);
   EXPECT_THAT(log.text(), Not(HasSubstr("no frame")));
+}
+
+// Moments, and what was there at each.
+struct Moments : SampleSink {
+  void OnCharacter(const Character&) override { ++people; }
+  void OnSample(const BodySample&) override { ++people; }
+  void OnSurroundings(const RecordedSurroundings& all) override { shown = all; }
+  void OnMoment(const SourceMoment& moment) override {
+    EXPECT_EQ(moment.arrival_nanos, 0);
+    stamps.push_back(moment.stamp_nanos);
+    markers.push_back(shown.markers.empty() ? std::nan("")
+                                            : shown.markers.front()->pose.position.x());
+    robots.push_back(shown.robots.empty() ? std::nan("")
+                                          : shown.robots[0]->world_from_link[0].translation().x());
+  }
+  RecordedSurroundings shown;
+  int people = 0;
+  std::vector<std::int64_t> stamps;
+  std::vector<double> markers, robots;  // places of the first ones; NaN: nowhere
+};
+
+class BagWithoutPeople : public ::testing::Test {
+ protected:
+  std::string Write(const std::function<void(rosbag::Bag&)>& write) const {
+    const std::string path = folder_ / "nobody.bag";
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    write(bag);
+    bag.close();
+    return path;
+  }
+  static Moments Read(const std::string& path, GraphView view = {}) {
+    view.needs_person = false;
+    Moments moments;
+    const auto source = OpenBag(path, view);
+    while (source->Poll({}, moments) == Source::State::kMore) {
+    }
+    EXPECT_EQ(moments.people, 0);
+    return moments;
+  }
+  static std::string RefusalOf(const std::string& path, const GraphView& view) {
+    try {
+      (void)OpenBag(path, view);
+      return "";
+    } catch (const SourceError& error) {
+      return error.what();
+    }
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(BagWithoutPeople, ShowsRobotsAndMarkersInTheRootOfItsFrames) {
+  const std::string path = Write([](rosbag::Bag& bag) {
+    for (int n = 0; n < 4; ++n) {
+      const std::int64_t now = kBegin + n * kStep;
+      tf2_msgs::TFMessage frames = FrameAt("odom", 1, now);
+      frames.transforms[0].header.frame_id = "map";
+      frames.transforms.push_back(FrameAt("base", n, now).transforms[0]);
+      frames.transforms[1].header.frame_id = "odom";
+      bag.write("/tf", TimeOf(now), frames);
+    }
+    bag.write("/walls", TimeOf(kBegin + kStep + 1), CubeIn("map", 1, 7));
+  });
+  GraphView view;
+  view.robots = {Arm()};
+  const Moments moments = Read(path, view);
+  EXPECT_THAT(moments.stamps,
+              ElementsAre(kBegin, kBegin + kStep, kBegin + 2 * kStep, kBegin + 3 * kStep))
+      << "the marker comes just after a moment";
+  EXPECT_THAT(moments.robots, ElementsAre(1, 2, 3, 4));
+  EXPECT_TRUE(std::isnan(moments.markers[1]));
+  EXPECT_EQ(moments.markers[2], 7);
+}
+
+TEST_F(BagWithoutPeople, NeedsNoTransforms) {
+  const std::string path = Write([](rosbag::Bag& bag) {
+    bag.write("/walls", TimeOf(kBegin), CubeIn("laser", 1, 3));
+    bag.write("/walls", TimeOf(kBegin + kStep), CubeIn("laser", 1, 4));
+  });
+  EXPECT_THAT(Read(path).markers, ElementsAre(3, 4));
+}
+
+TEST_F(BagWithoutPeople, IsRefusedWhereAPersonIsNeededOrNothingIsShown) {
+  const std::string path =
+      Write([](rosbag::Bag& bag) { bag.write("/walls", TimeOf(kBegin), CubeIn("map", 1, 3)); });
+  EXPECT_THAT(RefusalOf(path, {}), HasSubstr("neither /tf nor link_states"));
+  GraphView view;
+  view.needs_person = false;
+  const std::string other = Write([](rosbag::Bag& bag) {
+    geometry_msgs::PointStamped point;
+    point.header.frame_id = "map";
+    bag.write("goal", TimeOf(kBegin), point);
+  });
+  EXPECT_THAT(RefusalOf(other, view), HasSubstr("if you name it: --marker_topics=/goal"));
+  view.topics = {{"/goal"}};
+  EXPECT_EQ(Read(other, view).stamps.size(), 1u);
 }
 
 // The ring goes with the link that its joint states move: TF has no frame of it. They are also

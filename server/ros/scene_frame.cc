@@ -1,0 +1,55 @@
+#include "server/ros/scene_frame.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/system/utf8.h"
+
+namespace kinescope::ros_bridge {
+
+std::string RootOf(const std::vector<TreeFrame>& frames, const std::string& near) {
+  std::map<std::string, std::string> parents;
+  for (const TreeFrame& frame : frames) parents[frame.name] = frame.parent;
+  const auto root_of = [&](std::string frame) {
+    // A loop ends where it has been gone through.
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const auto found = parents.find(frame);
+      if (found == parents.end() || found->second.empty()) break;
+      frame = found->second;
+    }
+    return frame;
+  };
+  if (parents.count(near) != 0) return root_of(near);
+  std::map<std::string, int> sizes;
+  for (const TreeFrame& frame : frames) ++sizes[root_of(frame.name)];
+  const auto largest = std::max_element(
+      sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return largest == sizes.end() ? "" : largest->first;
+}
+
+SceneFrame::SceneFrame(std::string wanted, std::shared_ptr<const TfTree> tf)
+    : wanted_(std::move(wanted)), tf_(std::move(tf)), name_(wanted_) {}
+
+std::string SceneFrame::Find(const std::string& of_marker) const {
+  if (has_person_ || tf_->Knows(wanted_)) return wanted_;
+  std::string root = RootOf(tf_->frames(), name_);
+  if (!root.empty()) return root;
+  return of_marker.empty() ? name_ : of_marker;
+}
+
+void SceneFrame::Update(std::int64_t monotonic_nanos, const std::string& of_marker) {
+  constexpr std::int64_t kEveryNanos = 500'000'000;
+  if (has_person_ && name_ == wanted_) return;
+  if (looked_nanos_ != 0 && monotonic_nanos - looked_nanos_ < kEveryNanos) return;
+  looked_nanos_ = monotonic_nanos;
+  std::string now = Find(of_marker);
+  if (now == name_) return;
+  name_ = std::move(now);
+  spdlog::info("the scene stands in the frame '{}'{}", PrintableLine(name_),
+               name_ == wanted_ ? "" : fmt::format(": TF has none called '{}'", wanted_));
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Measures how soon and how completely a ROS subscriber has the samples of a suit, at the rates and with the numbers of
+# people that suits have, for README.md in this folder. Usage: tests/bench/ros_rates.sh [BUILD] [SECONDS]
+# BUILD: a build folder with the benchmark programs, default build/dev. Takes about two minutes.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$PWD/${1:-build/dev} length=${2:-10}
+kinescope=$build/bin/kinescope
+work=$(mktemp -d)
+children=()
+trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
+export ROS_HOME=$work/ros ROS_IP=127.0.0.1
+unset ROS_HOSTNAME
+port_of() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
+master_port=$(port_of)
+export ROS_MASTER_URI=http://127.0.0.1:$master_port
+/usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
+until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
+
+echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
+for rate in 60 120 240; do
+  for people in 1 4; do
+    udp=udp://127.0.0.1:$(port_of)
+    "$kinescope" bridge "$udp" --ros required 2>"$work/bridge.log" & bridge=$!
+    children+=("$bridge")
+    until grep -q 'answers' "$work/bridge.log"; do kill -0 "$bridge"; done
+    "$kinescope" stream demo:walk --characters "$people" --rate_hz "$rate" --to "$udp" 2>/dev/null & suit=$!
+    children+=("$suit")
+    topics() { rostopic list 2>/dev/null | grep '/joint_states$' || true; }
+    until [ "$(topics | wc -l)" -eq "$people" ]; do kill -0 "$bridge"; done
+    mapfile -t names < <(topics)
+    echo "$rate Hz, $people people: $("$build/tests/bench/ros_latency" $((rate * length)) "$rate" "${names[@]}")"
+    kill "$suit" "$bridge"; wait "$suit" "$bridge" 2>/dev/null || true
+  done
+done
