@@ -186,7 +186,8 @@ function readStateHeader(bytes) {
   const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, ghostCount, robotCount, hasCameraBase, hasExtent, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
+    viewers, floor, objectCount, ghostCount, robotCount, hasCameraBase,
+    hasExtent, waitedMillis, viewHeading, madeMicros, oldestMicros, oldestNumber,
   };
 }
 

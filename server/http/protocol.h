@@ -25,7 +25,7 @@ enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
 inline constexpr std::uint8_t kProtocolVersion = 10;
 
-/// "kinescope.v9": the name of this version among the subprotocols of a WebSocket.
+/// "kinescope.v10": the name of this version among the subprotocols of a WebSocket.
 [[nodiscard]] std::string SocketProtocol();
 
 /// Whether a client that offers these subprotocols (a list, separated by commas) can read the

@@ -18,6 +18,10 @@ export ROS_MASTER_URI=http://127.0.0.1:$master_port
 until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
 
 echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
+"$build/tests/bench/bare_publisher" & bare=$!
+children+=("$bare")
+echo "roscpp alone, 240 Hz: $("$build/tests/bench/ros_latency" $((240 * length)) 240 /bare/joint_states)"
+kill "$bare"; wait "$bare" 2>/dev/null || true
 for rate in 60 120 240; do
   for people in 1 4; do
     udp=udp://127.0.0.1:$(port_of)
@@ -26,10 +30,10 @@ for rate in 60 120 240; do
     until grep -q 'answers' "$work/bridge.log"; do kill -0 "$bridge"; done
     "$kinescope" stream demo:walk --characters "$people" --rate_hz "$rate" --to "$udp" 2>/dev/null & suit=$!
     children+=("$suit")
-    topics() { rostopic list 2>/dev/null | grep '/joint_states$' || true; }
+    topics() { rostopic list 2>/dev/null | grep -E '^/kinescope/([^/]+/)?joint_states$' || true; }
     until [ "$(topics | wc -l)" -eq "$people" ]; do kill -0 "$bridge"; done
     mapfile -t names < <(topics)
-    echo "$rate Hz, $people people: $("$build/tests/bench/ros_latency" $((rate * length)) "$rate" "${names[@]}")"
+    echo "$rate Hz, people: $people: $("$build/tests/bench/ros_latency" $((rate * length)) "$rate" "${names[@]}")"
     kill "$suit" "$bridge"; wait "$suit" "$bridge" 2>/dev/null || true
   done
 done

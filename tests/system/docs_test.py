@@ -33,7 +33,7 @@ NEVER_RUN = {
                               "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
                               "tests/bench/rviz_peer.sh",
                               "build/dev/tests/bench/growth", "build/dev/tests/bench/memory_flat",
-                              "tests/bench/frozen_master.py"],
+                              "tests/bench/frozen_master.py", "tests/bench/ros_rates.sh"],
     "tests/soak/README.md": ["tests/soak/soak.py"],
 }
 os.environ["CI"] = ""  # as on a person's machine: golden pictures are accepted there

@@ -62,16 +62,16 @@ test('the WebSocket offers the version that the page reads, and a server of anot
   holdTimers(t, ['setTimeout']);
   const { socket, connection } = open();
   assert.equal(`${socket.url}`, 'ws://localhost:8080/api/v1/ws');
-  assert.equal(socket.protocol, 'kinescope.v9');
+  assert.equal(socket.protocol, 'kinescope.v10');
   const rejectionBy = async (answer) => {
     globalThis.fetch = async () => answer;
     await FakeSocket.newest.onclose();
     return connection.rejection;
   };
   const session = (name) => Response.json({ role: 'viewer', socket: name });
-  assert.equal(await rejectionBy(session('kinescope.v10')),
-    'the server sends kinescope.v10 and this page reads kinescope.v9; reload the page');
-  assert.equal(await rejectionBy(session('kinescope.v9')), '', 'not the version: it tries again');
+  assert.equal(await rejectionBy(session('kinescope.v11')),
+    'the server sends kinescope.v11 and this page reads kinescope.v10; reload the page');
+  assert.equal(await rejectionBy(session('kinescope.v10')), '', 'not the version: it tries again');
   assert.equal(await rejectionBy(Response.json({ error: 'token missing' }, { status: 401 })), 'token missing');
   connection.close();
 });
