@@ -11,7 +11,7 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostOfMarker = 200;  // points that are looked at
+constexpr std::size_t kMostOfMarker = 200, kMostOfAll = 20'000;  // points that are looked at
 
 // Of a shape whose size is `scale` the two ends of its diagonal, whatever its rotation.
 void AddShape(const SceneMarker& marker, const Vector3d& scale, std::vector<Vector3d>& places) {
@@ -20,7 +20,8 @@ void AddShape(const SceneMarker& marker, const Vector3d& scale, std::vector<Vect
   places.push_back(marker.pose.position + reach);
 }
 
-void AddPlaces(const SceneMarker& marker, std::vector<Vector3d>& places) {
+// At most `most` of its points, in equal steps.
+void AddPlaces(const SceneMarker& marker, std::size_t most, std::vector<Vector3d>& places) {
   if (marker.type == MarkerType::kText) {
     places.push_back(marker.pose.position);
     return;
@@ -32,7 +33,7 @@ void AddPlaces(const SceneMarker& marker, std::vector<Vector3d>& places) {
     return;
   }
   const bool is_scaled = marker.type == MarkerType::kTriangleList;
-  const std::size_t step = (marker.points.size() + kMostOfMarker - 1) / kMostOfMarker;
+  const std::size_t step = (marker.points.size() + most - 1) / most;
   for (std::size_t i = 0; i < marker.points.size(); i += step) {
     const Vector3d& point = marker.points[i];
     const Vector3d scaled = is_scaled ? point.cwiseProduct(marker.scale) : point;
@@ -112,7 +113,9 @@ AlignedBox3d Widened(const AlignedBox3d& box, double by) {
 
 AlignedBox3d ExtentOf(const std::vector<RobotState>& robots, const MarkerList& markers) {
   std::vector<Vector3d> places;
-  for (const auto& marker : markers) AddPlaces(*marker, places);
+  const std::size_t most = std::clamp<std::size_t>(
+      kMostOfAll / std::max<std::size_t>(1, markers.size()), 2, kMostOfMarker);
+  for (const auto& marker : markers) AddPlaces(*marker, most, places);
   const auto is_nowhere = [](const Vector3d& place) { return !place.allFinite(); };
   places.erase(std::remove_if(places.begin(), places.end(), is_nowhere), places.end());
   AlignedBox3d box = BoxOf(robots);

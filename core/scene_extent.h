@@ -22,7 +22,6 @@ class HeldExtent {
  public:
   /// `now`: an empty box changes nothing.
   const Eigen::AlignedBox3d& Follow(const Eigen::AlignedBox3d& now);
-  const Eigen::AlignedBox3d& box() const { return held_; }
 
  private:
   Eigen::AlignedBox3d held_;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <bitset>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -176,10 +177,13 @@ class Bridge : public RosBridge {
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
-    scene_frame_->Update(MonotonicNanos(), markers_in_ ? markers_in_->FirstFrame() : "");
+    const std::int64_t now = MonotonicNanos();
+    if (config_.finds_frame && scene_frame_->IsDue(now)) {
+      scene_frame_->Update(now, markers_in_ ? markers_in_->FirstFrame() : "");
+    }
     // Robots first: their links may be frames of markers.
-    if (robots_in_) robots_in_->Deliver(MonotonicNanos(), is_stale_ ? 0 : shown_stamp_nanos_, sink);
-    if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
+    if (robots_in_) robots_in_->Deliver(now, is_stale_ ? 0 : shown_stamp_nanos_, sink);
+    if (markers_in_) markers_in_->Deliver(now, sink);
   }
 
   void Publish(const SceneState& state) override {
@@ -496,9 +500,13 @@ void RequireOneOf(const char* option, const std::string& value,
       fmt::format("--{}={}: expected one of {}", option, value, fmt::join(allowed, ", ")));
 }
 
+// Its parameters were asked for before: a second more for a master that freezes.
 void RequireMaster() {
+  constexpr std::chrono::milliseconds kPatience{1700};
   MasterClient master;
-  if (master.Call("getPid", XmlRpc::XmlRpcValue()).code == MasterReply::Code::kGood) return;
+  if (master.Call("getPid", XmlRpc::XmlRpcValue(), kPatience).code == MasterReply::Code::kGood) {
+    return;
+  }
   if (!master.problem().empty()) {
     throw UsageError(
         fmt::format("--ros=required: the server at {} does not answer as a ROS master: it {}; set "

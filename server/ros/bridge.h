@@ -68,8 +68,11 @@ struct RosSettings {
 
 struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
-  std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
-                                          // alone, for robot_state_publisher) or "none"
+  /// Without people, the scene stands in the root of TF if that lacks the reference frame: of a
+  /// graph, whose people may come later or not at all.
+  bool finds_frame = false;
+  std::string tf = "flat";  // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
+                            // alone, for robot_state_publisher) or "none"
   /// With "none": adds the frames of the links inside the joints where the node that publishes the
   /// people does not: RViz reports an error for a robot without them.
   bool completes_frames = false;

@@ -286,14 +286,23 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   return true;
 }
 
+void MarkerStore::AddAxes(std::size_t topic, const ShownTopic& frame) {
+  const Marker axes = AxesMarker(frame.name, frame.style);
+  if (const auto refusal = Apply(topic, axes, 0)) {
+    throw UsageError("--marker_topics: " + refusal->text);
+  }
+  entries_.at(Key{topic, axes.ns, axes.id}).is_of_axes = true;
+}
+
 void MarkerStore::PlaceAgain() {
   for (auto& [key, entry] : entries_) entry.is_new = true;
   next_retry_nanos_ = 0;
 }
 
 std::string MarkerStore::FirstFrame() const {
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [](const auto& entry) { return !entry.second.frame.empty(); });
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [](const auto& entry) {
+    return !entry.second.is_of_axes && !entry.second.frame.empty();
+  });
   return found == entries_.end() ? "" : found->second.frame;
 }
 
@@ -312,12 +321,6 @@ std::vector<MarkerStore::Lost> MarkerStore::Unplaced() const {
     all.push_back(LostOf(key, entry));
   }
   return all;
-}
-
-void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame) {
-  if (const auto refusal = store.Apply(topic, AxesMarker(frame.name, frame.style), 0)) {
-    throw UsageError("--marker_topics: " + refusal->text);
-  }
 }
 
 }  // namespace kinescope::ros_bridge

@@ -51,6 +51,10 @@ class MarkerStore {
       std::size_t topic, const std::vector<visualization_msgs::Marker>& messages,
       std::int64_t monotonic_nanos, const ShownStyle& style = {});
 
+  /// Puts the axes of a frame into the store, for good. @pre frame.is_frame
+  /// @throws UsageError if they cannot be shown
+  void AddAxes(std::size_t topic, const ShownTopic& frame);
+
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.
   /// True if the list of `markers()` has changed.
@@ -58,7 +62,7 @@ class MarkerStore {
 
   /// Looks all frames up again: the reference frame is another one.
   void PlaceAgain();
-  /// The frame of the first marker that has one; "": there is none.
+  /// The frame of the first marker of a message that names one; "": there is none.
   [[nodiscard]] std::string FirstFrame() const;
 
   /// All markers with a known frame, in the order of topic, namespace and id.
@@ -83,7 +87,8 @@ class MarkerStore {
     std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
-    bool is_new = true;  // the newest message was not placed yet
+    bool is_new = true;       // the newest message was not placed yet
+    bool is_of_axes = false;  // of no message
     bool is_lost = false;
     std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
   };
@@ -100,9 +105,5 @@ class MarkerStore {
   Markers placed_;
   std::vector<Lost> lost_;
 };
-
-/// Puts the axes of a frame into the store, for good. @pre frame.is_frame
-/// @throws UsageError if they cannot be shown
-void AddAxes(MarkerStore& store, std::size_t topic, const ShownTopic& frame);
 
 }  // namespace kinescope::ros_bridge

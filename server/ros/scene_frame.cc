@@ -37,14 +37,20 @@ std::string SceneFrame::Find(const std::string& of_marker) const {
   if (has_person_ || tf_->Knows(wanted_)) return wanted_;
   std::string root = RootOf(tf_->frames(), name_);
   if (!root.empty()) return root;
-  return of_marker.empty() ? name_ : of_marker;
+  // Messages may come before the frames.
+  constexpr int kLooksWithoutFrames = 4;
+  return of_marker.empty() || looks_ <= kLooksWithoutFrames ? name_ : of_marker;
+}
+
+bool SceneFrame::IsDue(std::int64_t monotonic_nanos) const {
+  constexpr std::int64_t kEveryNanos = 500'000'000;
+  if (has_person_) return name_ != wanted_;
+  return looked_nanos_ == 0 || monotonic_nanos - looked_nanos_ >= kEveryNanos;
 }
 
 void SceneFrame::Update(std::int64_t monotonic_nanos, const std::string& of_marker) {
-  constexpr std::int64_t kEveryNanos = 500'000'000;
-  if (has_person_ && name_ == wanted_) return;
-  if (looked_nanos_ != 0 && monotonic_nanos - looked_nanos_ < kEveryNanos) return;
   looked_nanos_ = monotonic_nanos;
+  ++looks_;
   std::string now = Find(of_marker);
   if (now == name_) return;
   name_ = std::move(now);

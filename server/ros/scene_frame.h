@@ -23,8 +23,10 @@ class SceneFrame {
   const std::string& name() const { return name_; }
   /// A person is there: from now on it is the wanted one.
   void SetPerson() { has_person_ = true; }
-  /// Looks for it, at most twice a second. `of_marker`: a frame in which something stands that is
-  /// to be shown, for graphs without TF; "": there is none.
+  /// Whether it is to be looked for: at most twice a second, and not once it is that of people.
+  bool IsDue(std::int64_t monotonic_nanos) const;
+  /// `of_marker`: a frame in which something stands that is to be shown, for graphs without TF; "":
+  /// there is none.
   void Update(std::int64_t monotonic_nanos, const std::string& of_marker);
 
  private:
@@ -35,6 +37,7 @@ class SceneFrame {
   std::string name_;
   bool has_person_ = false;
   std::int64_t looked_nanos_ = 0;
+  std::int64_t looks_ = 0;
 };
 
 }  // namespace kinescope::ros_bridge

@@ -221,7 +221,8 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   }
   config.ros = BridgeOf(options);
   UseMeshFiles(MeshCache::Lifetime::kProcess, config.scene);
-  if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "none") {
+  config.ros->finds_frame = ros_bridge::IsGraphUrl(config.source_url);
+  if (config.ros->finds_frame && config.ros->tf != "none") {
     // The frames of these people are on /tf already. With a second publisher they would jump
     // between two poses, and Kinescope would receive its own.
     config.ros->tf = "none";

@@ -74,7 +74,7 @@ BagSurroundings::BagSurroundings(const GraphView& view)
       continue;
     }
     // A topic begins with a slash, this name does not.
-    AddAxes(store_, topics_.try_emplace("tf:" + topic.name, topics_.size()).first->second, topic);
+    store_.AddAxes(topics_.try_emplace("tf:" + topic.name, topics_.size()).first->second, topic);
     has_markers_ = true;
   }
   for (const GraphRobot& robot : view.robots) {

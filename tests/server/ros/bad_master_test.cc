@@ -107,7 +107,7 @@ TEST_F(RosBridgeWithMaster, RequiresAMasterAndNamesAServerThatIsNone) {
 TEST_F(RosBridgeWithMaster, RequiresAMasterAndWaitsForOneThatAnswersLate) {
   const BadMaster master(
       [](int connection, const std::string&) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // late is what this is about
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // late is what this is about
         Send(connection, MasterAnswer(1, 100));
       },
       port_.number());

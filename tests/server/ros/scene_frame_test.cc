@@ -52,23 +52,27 @@ TEST(SceneFrame, IsTheRootOfTfWithoutPeople) {
   frame.Update(2 * kSecond, "");
   EXPECT_EQ(frame.name(), "odom");
   tf->Add(Below("map", "odom"), false);
-  frame.Update(2 * kSecond + 1, "");
-  EXPECT_EQ(frame.name(), "odom") << "it looks twice a second";
+  EXPECT_FALSE(frame.IsDue(2 * kSecond + 1)) << "it looks twice a second";
+  EXPECT_TRUE(frame.IsDue(3 * kSecond));
   frame.Update(3 * kSecond, "");
   EXPECT_EQ(frame.name(), "map");
   EXPECT_NE(log.text().find("stands in the frame 'map': TF has none called 'world'"),
             std::string::npos)
       << log.text();
   frame.SetPerson();
-  frame.Update(4 * kSecond, "");
+  EXPECT_TRUE(frame.IsDue(3 * kSecond + 1));
+  frame.Update(3 * kSecond + 1, "");
   EXPECT_EQ(frame.name(), "world") << "that of people";
+  EXPECT_FALSE(frame.IsDue(9 * kSecond));
 }
 
 TEST(SceneFrame, IsThatOfAMarkerWithoutTf) {
   SceneFrame frame("world", std::make_shared<TfTree>());
   frame.Update(kSecond, "map");
+  EXPECT_EQ(frame.name(), "world") << "its frames may come after it";
+  for (int second = 2; second < 6; ++second) frame.Update(second * kSecond, "map");
   EXPECT_EQ(frame.name(), "map");
-  frame.Update(2 * kSecond, "");
+  frame.Update(6 * kSecond, "");
   EXPECT_EQ(frame.name(), "map") << "the marker is gone";
 }
 
