@@ -8,6 +8,7 @@
 #include <limits>
 #include <regex>
 
+#include "core/scene_extent.h"
 #include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
@@ -57,6 +58,7 @@ class RobotDrawing : public ::testing::Test {
     SceneState state;
     state.liveness = Liveness::kLive;
     state.robots = std::move(robots);
+    state.extent = ExtentOf(state.robots, {});
     return state;
   }
 
