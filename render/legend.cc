@@ -8,6 +8,7 @@
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
+#include "render/camera/camera.h"
 
 namespace kinescope::render {
 namespace {
