@@ -206,15 +206,10 @@ std::vector<ImageSize> ImageSizesOf(const SceneState& state) {
   return sizes;
 }
 
-LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
-  LegendContent content;
-  content.images = ImageSizesOf(state);
-  if (HasOnlyRobots(state)) return content;
-  if (state.liveness == Liveness::kNoPerson || ShowsExtent(state)) {
-    AddThings(state, look, content.rows);
-    if (!content.rows.empty()) content.title = kSymbolsTitle;
-    return content;
-  }
+namespace {
+
+// What a person may show, whether or not there is one yet.
+void AddPeople(const SceneState& state, const SceneLook& look, LegendContent& content) {
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
   const auto add_class = [&](LoadClass load_class, double radius, const char* name,
@@ -241,6 +236,16 @@ LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
     content.rows.push_back(GroundReactionRow());
   }
   AddTrailsAndGhosts(look, content.rows);
+}
+
+}  // namespace
+
+LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
+  LegendContent content;
+  content.images = ImageSizesOf(state);
+  if (HasOnlyRobots(state)) return content;
+  const bool is_of_people = state.liveness != Liveness::kNoPerson && !ShowsExtent(state);
+  if (is_of_people) AddPeople(state, look, content);
   AddThings(state, look, content.rows);
   if (content.title.empty() && !content.rows.empty()) content.title = kSymbolsTitle;
   if (std::string metric = MetricOf(state); !metric.empty()) {

@@ -20,6 +20,9 @@
 
 namespace kinescope::ros_bridge {
 
+/// Robots that move are placed as often: enough for any frame rate.
+inline constexpr std::int64_t kPlaceEveryNanos = 16'000'000;
+
 /// The topic of the joint states of a robot whose URDF is a file: "/joint_states", with a TF prefix
 /// "/<prefix>/joint_states".
 std::string JointStatesOf(const GraphRobot& robot);

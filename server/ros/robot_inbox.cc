@@ -16,7 +16,6 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::int64_t kPlaceEveryNanos = 16'000'000;
 constexpr std::int64_t kPatienceNanos = 5'000'000'000;  // before a missing frame is worth a warning
 constexpr std::uint32_t kJointStateQueue = 100;
 

@@ -80,8 +80,8 @@ PacedSource::Track& PacedSource::PlayedOf(int id, std::int64_t stamp_nanos) {
   return track;
 }
 
-template <class Event>
-void PacedSource::EnqueueAt(std::int64_t played, Event event) {
+template <class Stamped>
+void PacedSource::EnqueueAt(std::int64_t played, Stamped event) {
   if (surroundings_) queue_.emplace(played, *std::exchange(surroundings_, std::nullopt));
   event.stamp_nanos = played;
   queue_.emplace(played, std::move(event));

@@ -72,8 +72,8 @@ class PacedSource : public Source, private SampleSink {
   static constexpr int kNobody = -1;
 
   Track& PlayedOf(int id, std::int64_t stamp_nanos);
-  template <class Event>
-  void EnqueueAt(std::int64_t played, Event event);
+  template <class Stamped>
+  void EnqueueAt(std::int64_t played, Stamped event);
   template <class Sample>
   void Enqueue(Sample sample);
   void EnqueueCharacter(int id, std::int64_t played);

@@ -5,18 +5,11 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$PWD/${1:-build/dev}
 kinescope=$build/bin/kinescope
-work=$(mktemp -d)
-children=()
-trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
-export ROS_HOME=$work/ros ROS_IP=127.0.0.1
-unset ROS_HOSTNAME
+. tests/bench/common.sh
 
 seconds() { local start=$EPOCHREALTIME; "$@" >/dev/null 2>&1; awk "BEGIN { printf \"%.2f\", $EPOCHREALTIME - $start }"; }
-port_of() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
-cpu_ticks() { awk '{ print $14 + $15 }' "/proc/$1/stat"; }
-rss_mb() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
 
-echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
+print_machine
 echo "start to first picture on disk (1280x720): $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s," \
      "second run $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s"
 show_clip() {  # WHAT [options]
@@ -32,8 +25,7 @@ ffprobe -v error -count_frames -show_entries stream=nb_read_frames,r_frame_rate,
 master_port=$(port_of) http_port=$(port_of) udp_port=$(port_of)
 export ROS_MASTER_URI=http://127.0.0.1:$master_port
 if command -v rosmaster >/dev/null && [ -x "$build/tests/bench/ros_latency" ]; then
-  /usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
-  until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
+  start_master
 fi
 start_server() {  # [options]
   "$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" "$@" 2>"$work/server.log" & server=$!

@@ -6,18 +6,12 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$PWD/${1:-build/dev} length=${2:-10}
 kinescope=$build/bin/kinescope
-work=$(mktemp -d)
-children=()
-trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
-export ROS_HOME=$work/ros ROS_IP=127.0.0.1
-unset ROS_HOSTNAME
-port_of() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
+. tests/bench/common.sh
 master_port=$(port_of)
 export ROS_MASTER_URI=http://127.0.0.1:$master_port
-/usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
-until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
+start_master
 
-echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
+print_machine
 "$build/tests/bench/bare_publisher" & bare=$!
 children+=("$bare")
 echo "roscpp alone, 240 Hz: $("$build/tests/bench/ros_latency" $((240 * length)) 240 /bare/joint_states)"

@@ -13,22 +13,15 @@ build=$PWD/${1:-build/dev}
 secs=${2:-15}
 rounds=${3:-2}
 kinescope=$build/bin/kinescope
-work=$(mktemp -d)
-children=()
-trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
-port_of() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
-cpu_ticks() { awk '{ print $14 + $15 }' "/proc/$1/stat"; }
-rss_mb() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
+. tests/bench/common.sh
 secs_since() { awk "BEGIN { printf \"%.2f\", $EPOCHREALTIME - $1 }"; }
 swaps() { od -An -t u8 -N 8 "$work/swaps" | tr -d ' '; }
 master_port=$(port_of)
-export ROS_HOME=$work/ros ROS_IP=127.0.0.1 ROS_MASTER_URI=http://127.0.0.1:$master_port
+export ROS_MASTER_URI=http://127.0.0.1:$master_port
 export HOME=$work LIBGL_ALWAYS_SOFTWARE=1 QT_LOGGING_RULES='*=false'
-unset ROS_HOSTNAME
 
-echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1-3 /proc/loadavg)"
-/usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
-until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
+print_machine
+start_master
 mkfifo "$work/display"
 Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 3>"$work/display" 2>/dev/null & xvfb=$!; children+=("$xvfb")
 read -r display <"$work/display"

@@ -7,6 +7,7 @@
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -24,8 +25,7 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr int kMessagesPerPoll = 256;
-constexpr std::int64_t kMomentEveryNanos = 16'000'000;  // for any frame rate
-constexpr std::int64_t kNamesNanos = 10'000'000'000;    // read on opening for frame names
+constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
 
 constexpr char kUnreadableTransforms[] =
     "transforms that are truncated or have a wrong length field";
@@ -101,6 +101,9 @@ class BagSource : public Source {
   /// The frame of the first sample, in which markers stand from the beginning; "" if none comes
   /// soon. @pre people_ are known
   std::string FindWorld();
+  /// Gives the messages of transforms of the first seconds to `take`, in message_, until it returns
+  /// false.
+  void ReadTransforms(const std::function<bool(const BagMessage& message)>& take);
   /// Of a bag without people: the root of its frames; "" if it has none, then it is the frame of
   /// what is shown first.
   std::string FindRoot();
@@ -231,34 +234,36 @@ std::string BagSource::FindWorld() {
     void OnCharacter(const Character&) override {}
     void OnSample(const BodySample&) override {}
   } nothing;
-  BagMessages ahead(OpenBagFile(name_),
-                    [this](const BagConnection& connection) { return HasTransforms(connection); });
   TransformPeople people = people_;
   SourceCounters unused;
-  std::int64_t end = 0;
-  for (BagMessage message; people.root().empty() && ahead.Next(message);) {
-    if (end == 0) end = message.recorded_nanos + kNamesNanos;
-    if (message.recorded_nanos > end) break;
-    if (Decode(message) != nullptr) continue;
+  ReadTransforms([&](const BagMessage& message) {
     if (IsStatic(message.connection->topic)) {
       people.TakeStatic(message_, unused);
     } else {
       people.Take(message_, {message.recorded_nanos, 0}, unused, nothing);
     }
-  }
+    return people.root().empty();
+  });
   return people.root();
 }
 
-std::string BagSource::FindRoot() {
+void BagSource::ReadTransforms(const std::function<bool(const BagMessage& message)>& take) {
   BagMessages ahead(OpenBagFile(name_),
                     [this](const BagConnection& connection) { return HasTransforms(connection); });
-  TfTree tf;
   std::int64_t end = 0;
   for (BagMessage message; ahead.Next(message);) {
     if (end == 0) end = message.recorded_nanos + kNamesNanos;
-    if (message.recorded_nanos > end) break;
-    if (Decode(message) == nullptr) tf.Add(message_, IsStatic(message.connection->topic));
+    if (message.recorded_nanos > end) return;
+    if (Decode(message) == nullptr && !take(message)) return;
   }
+}
+
+std::string BagSource::FindRoot() {
+  TfTree tf;
+  ReadTransforms([&](const BagMessage& message) {
+    tf.Add(message_, IsStatic(message.connection->topic));
+    return true;
+  });
   return RootOf(tf.frames(), "");
 }
 
@@ -327,13 +332,14 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
     people_.TakeStatic(message_, counters_);
   } else {
     joiner_.SetSink(&sink);
-    surroundings_.Update(message.recorded_nanos, world_, name_, joiner_);
+    // Without people, with the moments.
+    if (has_person_) surroundings_.Update(message.recorded_nanos, world_, name_, joiner_);
     people_.Take(message_, {message.recorded_nanos, 0}, counters_, joiner_);
   }
 }
 
 void BagSource::PassMoment(std::int64_t now_nanos, SampleSink& sink) {
-  if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kMomentEveryNanos) return;
+  if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kPlaceEveryNanos) return;
   moment_nanos_ = now_nanos;
   if (world_.empty()) world_ = surroundings_.FirstFrame();
   surroundings_.Update(now_nanos, world_, name_, sink);

@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::size_t kMostMarkerTopics = 256;
 constexpr std::size_t kMostWarnings = 8;
-constexpr std::int64_t kPlaceEveryNanos = 16'000'000;  // of the bag: robots, for any frame rate
 constexpr char kUnreadableMarkers[] = "markers that are truncated or have a wrong length field";
 constexpr char kUnreadableJoints[] = "joint states that are truncated or have a wrong length field";
 
