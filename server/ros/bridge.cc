@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <bitset>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -500,13 +499,10 @@ void RequireOneOf(const char* option, const std::string& value,
       fmt::format("--{}={}: expected one of {}", option, value, fmt::join(allowed, ", ")));
 }
 
-// Its parameters were asked for before: a second more for a master that freezes.
 void RequireMaster() {
-  constexpr std::chrono::milliseconds kPatience{1700};
   MasterClient master;
-  if (master.Call("getPid", XmlRpc::XmlRpcValue(), kPatience).code == MasterReply::Code::kGood) {
-    return;
-  }
+  const MasterReply reply = master.Call("getPid", XmlRpc::XmlRpcValue(), StartPatienceLeft());
+  if (reply.code == MasterReply::Code::kGood) return;
   if (!master.problem().empty()) {
     throw UsageError(
         fmt::format("--ros=required: the server at {} does not answer as a ROS master: it {}; set "

@@ -244,8 +244,8 @@ std::string MasterUri();   // "" in a build without ROS
 bool MasterIsReachable();  // contacts it, waits at most a second
 
 /// The private parameter `~name` as text: from `_name:=value` on the command line, else from the
-/// master. nullopt if neither has it, if it is a list or a map, or if no master is reachable. The
-/// master is asked once, at the first call. Any thread.
+/// master. nullopt if neither has it, if it is a list or a map, or if no master answers within 2.4
+/// s, which is logged. The master is asked once, at the first call. Any thread.
 std::optional<std::string> PrivateParameter(const std::string& name);
 
 /// Null for kOff.

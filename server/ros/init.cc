@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 #include <xmlrpcpp/XmlRpcUtil.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <mutex>
@@ -85,15 +86,25 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
 }
 
 // One lost packet can cost more than a second; a master that never answers must not keep the
-// program from starting within 3 s.
-constexpr std::chrono::milliseconds kStartPatience{2400};
+// program from starting, or from saying that it cannot, within 3 s.
+constexpr std::chrono::milliseconds kParametersPatience{2400}, kStartPatience{2900};
+
+std::atomic<bool> parameters_were_late{false};
 
 // Fetches all parameters at the first call: a master that does not answer then costs one timeout
 // and not one per option.
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
-  const MasterReply reply = MasterClient().Call("getParam", arguments, kStartPatience);
+  const MasterReply reply = MasterClient().Call("getParam", arguments, kParametersPatience);
+  if (reply.is_late) {
+    parameters_were_late = true;
+    spdlog::warn(
+        "the ROS master at {} has not answered within {:.1f} s: the parameters of {} are not used; "
+        "if it has some (rosparam get {}), restart the node once the master answers",
+        MasterUri(), std::chrono::duration<double>(kParametersPatience).count(),
+        ros::this_node::getName(), ros::this_node::getName());
+  }
   return reply.code == MasterReply::Code::kGood ? reply.value : XmlRpcValue();
 }
 
@@ -165,6 +176,10 @@ bool MasterIsReachable() {
   InitRos();
   return MasterClient().Call("getPid", XmlRpcValue(), std::chrono::seconds(1)).code ==
          MasterReply::Code::kGood;
+}
+
+std::chrono::milliseconds StartPatienceLeft() {
+  return parameters_were_late ? kStartPatience - kParametersPatience : kStartPatience;
 }
 
 void HurryRoscpp() {

@@ -87,6 +87,7 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
       // With nothing left to wait for it returns at once.
       if (std::chrono::steady_clock::now() - now < step / 2) break;
     }
+    reply.is_late = is_late;
     XmlRpcValue response;
     const bool has_begun = !client._header.empty() || !client._response.empty();
     const bool is_done = client.executeCheckDone(response);

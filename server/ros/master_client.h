@@ -29,6 +29,7 @@ struct MasterReply {
     kGood,
   };
   Code code = Code::kNoAnswer;
+  bool is_late = false;       // kNoAnswer because the time was over
   XmlRpc::XmlRpcValue value;  // the result, for kGood
   std::string problem;        // why an answer was rejected (xmlrpc_limits.h); "": it was not
 };

@@ -22,9 +22,7 @@ namespace {
 
 // Private parameters of this node: ~name.
 void ReadParameters(const ServeOptions& options, options::OptionList& list) {
-  const bool can_be_there = *options.ros != ros_bridge::RosMode::kOff &&
-                            ros_bridge::BuiltWithRos() && ros_bridge::MasterIsReachable();
-  if (!can_be_there) return;
+  if (*options.ros == ros_bridge::RosMode::kOff || !ros_bridge::BuiltWithRos()) return;
   options::SetFrom(
       [](const std::string& name) -> std::optional<options::Found> {
         const auto text = ros_bridge::PrivateParameter(name);
