@@ -1,12 +1,18 @@
 """What has changed, for the checks that look at changed files only."""
+import re
 import subprocess
 
 from compile_flags import TOP
 
 
-def git(*words):
+def git_output(*words):
     result = subprocess.run(["git", *words], capture_output=True, text=True, cwd=TOP)
-    return result.stdout.split("\0" if "-z" in words else None) if result.returncode == 0 else None
+    return result.stdout if result.returncode == 0 else None
+
+
+def git(*words):
+    output = git_output(*words)
+    return output if output is None else output.split("\0" if "-z" in words else None)
 
 
 def base_commit():
@@ -31,3 +37,10 @@ def names_changed_since(commit):
     return {name for words in (("diff", "--name-only", "--diff-filter=d", "-z", commit),
                                ("ls-files", "--others", "--exclude-standard", "-z"))
             for name in git(*words) or [] if name}
+
+
+def has_lost_a_name(commit, name):
+    """Whether a header that was there at the commit has a line less, or another one, that begins at the left: an include, or
+    a declaration outside of classes. Who relied on that header for it finds nothing there."""
+    removed = re.findall(r"^-(?!--)[A-Za-z#].*", git_output("diff", "-U0", "--no-renames", commit, "--", name) or "", re.MULTILINE)
+    return any(not line.startswith("-#pragma") for line in removed)

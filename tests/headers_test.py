@@ -5,7 +5,7 @@ of each std:: name in it, instead of relying on another header.
 tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests] [--only PART_OF_A_PATH]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
   definitions of each folder; generated headers (ROS messages) must exist. Compiles the headers that differ
-  from COMMIT or include, directly or not, one that does. Default of COMMIT: the commit where this branch left
+  from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since. Default of COMMIT: the commit where this branch left
   origin/main, or the last commit but one if it has not left origin/main. --all: compiles all, which takes
   eight CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
   Exit code 1 if an include is missing; one line per finding: header, line, problem.
@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from changes import names_changed_since, parse_options
+from changes import has_lost_a_name, names_changed_since, parse_options
 from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 
 FOLDERS = ("urdf", "core", "server", "render")
@@ -215,8 +215,10 @@ def compile_alone(name, flags, begin):
     return [f"{where}: on its own: {what}" + ("" if where.startswith(name) else f" (in {name})")]
 
 
-def affected_by(changed, names, closures):
-    return [name for name in names if name in changed or changed & closures[name]]
+def affected_by(changed, since, names, closures):
+    """What a header found in another one is missing only if that has lost something."""
+    poorer = {name for name in changed if name.endswith(".h") and has_lost_a_name(since, name)}
+    return [name for name in names if name in changed or poorer & closures[name]]
 
 
 def compile_all(names, closures, flags, jobs):
@@ -243,7 +245,7 @@ def main():
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
     closures = Closures()
     if not options.all and options.since is not None:
-        alone = affected_by(names_changed_since(options.since), alone, closures)
+        alone = affected_by(names_changed_since(options.since), options.since, alone, closures)
     findings += compile_all(alone, closures, read_flags(options.build.resolve()), options.jobs)
     print(f"{len(headers)} headers, {len(alone)} of them compiled on their own, {len(findings)} findings, "
           f"{cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")

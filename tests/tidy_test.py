@@ -5,8 +5,9 @@ tests/tidy_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (ROS messages)
   must exist. Checks the sources and headers of urdf, core, server and render that differ from COMMIT, and new
   ones. Default of COMMIT: the commit where this branch left origin/main, or the last commit but one if it
-  has not left origin/main. More than sixty are checked in the batches of the build that have them, which takes about ten
-  CPU minutes at most. --all: checks every source in this way.
+  has not left origin/main. Those of one folder are checked together, since most of the time goes to the headers of
+  libraries; that each source includes what it needs is seen by compiling it alone.
+  --all: checks every source, in the batches of the build.
   .clang-tidy lists the checks. Exit code 1 if there are findings; one line each: file, line, problem.
 """
 import argparse
@@ -16,12 +17,13 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 from changes import names_changed_since, parse_options
 from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
 
 FOLDERS = ("urdf", "core", "server", "render")
-MOST_ALONE = 60  # files; each is several seconds, mostly of reading headers
+MOST_TOGETHER = 8  # files, so that both cores have something to do
 NOT_CHECKED = {"urdf/skin/make/make_skin.cc"}  # clang-tidy reads CGAL's templates for many minutes
 
 
@@ -36,7 +38,7 @@ def changed_since(commit):
 
 def tidy(words):
     """Set of findings of one run; the end of its error output if clang-tidy failed."""
-    result = subprocess.run(["clang-tidy", "--quiet", *words], capture_output=True, text=True, cwd=TOP)
+    result = subprocess.run(["clang-tidy", "--quiet", f"--config-file={TOP}/.clang-tidy", *words], capture_output=True, text=True, cwd=TOP)
     found = re.findall(r"^(.+?:\d+):\d+: (?:warning|error): (.+)$", result.stdout, re.MULTILINE)
     lines = {f"{where.replace(f'{TOP}/', '')}: {what.replace(',-warnings-as-errors', '')}"
              for where, what in found}
@@ -45,21 +47,43 @@ def tidy(words):
     return lines
 
 
-def commands_for_changed(build, changed):
+class Batch:
+    """Changed files of one folder, which are compiled with the same flags."""
+
+    def __init__(self, files, flags):
+        self.files, self._flags = files, ["-std=c++17", "-Wno-pragma-once-outside-header", *flags, f"-I{TOP}", "-x", "c++"]
+
+    def findings(self, folder):
+        with tempfile.NamedTemporaryFile("w", suffix=".cc", dir=folder) as together:
+            together.write("".join(f'#include "{file}"\n' for file in self.files))
+            together.flush()
+            found = tidy([together.name, "--", *self._flags])
+        if len(self.files) > 1 and any("clang-diagnostic-error" in line for line in found):  # two have the same name for something
+            found = set().union(*(Batch([file], self._flags).findings(folder) for file in self.files))
+        return found.union(*map(self._alone, self.files))
+
+    def _alone(self, file):
+        result = subprocess.run(["clang++", "-w", "-fsyntax-only", *self._flags, str(TOP / file)], capture_output=True, text=True, cwd=TOP)
+        found = re.findall(r"^(.+?:\d+):\d+: (?:fatal )?error: (.+)$", result.stderr, re.MULTILINE)[:1]
+        return {f"{where.replace(f'{TOP}/', '')}: on its own: {what}" for where, what in found}
+
+
+def batches_of(build, changed):
     flags = read_flags(build)
-    return [[str(file), "--", "-std=c++17", "-Wno-pragma-once-outside-header",
-             *(flags_for(flags, file.as_posix()) or []), f"-I{TOP}", "-x", "c++"]
-            for file in changed]
+    together = {}
+    for file in changed:
+        of_file = flags_for(flags, file.as_posix()) or []
+        together.setdefault((file.parent, *of_file), []).append(file)
+    return [Batch(files[i:i + MOST_TOGETHER], key[1:]) for key, files in together.items()
+            for i in range(0, len(files), MOST_TOGETHER)]
 
 
-def commands_for_batches(build, changed=None):
-    """Of all sources, or of batches with one that has changed: a header is checked through the source of its name."""
+def commands_for_all(build):
+    """A header is checked through the source of its name."""
     database = json.loads((build / "compile_commands.json").read_text())
     not_checked = {TOP / name for name in NOT_CHECKED}
-    wanted = None if changed is None else {TOP / file.with_suffix(".cc") for file in changed}
     ours = {entry["file"] for entry in database for source in sources_of(entry)
-            if source not in not_checked and any(TOP / folder in source.parents for folder in FOLDERS)
-            and (wanted is None or source in wanted)}
+            if source not in not_checked and any(TOP / folder in source.parents for folder in FOLDERS)}
     return [["-p", str(build), file] for file in sorted(ours)]
 
 
@@ -72,16 +96,16 @@ def main():
     if not options.all and options.since is None:
         print("no history: no file checked; check all files with tests/tidy_test.py --all")
         return 0
-    if options.all:
-        commands = commands_for_batches(build)
-    else:
-        changed = changed_since(options.since)
-        commands = commands_for_changed(build, changed) if len(changed) <= MOST_ALONE else commands_for_batches(build, changed)
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        findings = set().union(*pool.map(tidy, commands))
-    what = "batches (all sources)" if options.all else f"files or batches of them changed since {options.since[:10]}"
-    print(f"{len(commands)} {what}: {len(findings)} findings, {cpu_seconds():.0f} s CPU",
-          *sorted(findings), sep="\n")
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool, tempfile.TemporaryDirectory() as folder:
+        if options.all:
+            commands = commands_for_all(build)
+            findings = set().union(*pool.map(tidy, commands))
+            what = f"{len(commands)} batches (all sources)"
+        else:
+            batches = sorted(batches_of(build, changed_since(options.since)), key=lambda batch: -len(batch.files))
+            findings = set().union(*pool.map(lambda batch: batch.findings(folder), batches))
+            what = f"{sum(len(batch.files) for batch in batches)} files changed since {options.since[:10]}, in {len(batches)} batches"
+    print(f"{what}: {len(findings)} findings, {cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
     return 1 if findings else 0
 
 
