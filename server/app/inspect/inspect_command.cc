@@ -23,6 +23,7 @@
 #include "server/mvn/open.h"
 #include "server/options/ros_names.h"
 #include "server/ros/source/bag_source.h"
+#include "server/ros/source/graph_source.h"
 #include "server/source/open_source.h"
 #include "server/source/scheme.h"
 
@@ -222,10 +223,15 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
       report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
       report.format = "written pose";
       break;
-    case SourceKind::kGraph:
-      report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
+    case SourceKind::kGraph: {
+      const std::unique_ptr<Source> source = OpenSource(*options.source);
+      report = InspectSamples(*source, *options.seconds, false);
       report.format = "ROS graph";
+      if (report.CanBeShown()) break;
+      const std::string missing = ros_bridge::MissingInGraph(*source);
+      if (!missing.empty()) report.advice.push_back(missing);
       break;
+    }
     case SourceKind::kFile: report = InspectFile(options); break;
   }
   return report;

@@ -1,8 +1,10 @@
 #include "server/ros/source/graph_source.h"
 
+#include <ros/master.h>
 #include <ros/names.h>
 #include <ros/this_node.h>
 #include <ros/time.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <map>
@@ -27,6 +29,7 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr std::string_view kScheme = "ros:";
+constexpr char kMasterAnswers[] = "ros_master_answers", kPublishers[] = "publishers";  // counters
 constexpr std::int64_t kSettleNanos = 250'000'000;
 constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
 constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
@@ -50,7 +53,7 @@ std::string ToTopic(const std::string& url) {
 // The master shuts down a node with this node's name as soon as this node registers: probably the
 // one to subscribe to.
 void RefuseNameOfAnother(const std::string& url) {
-  if (!DoesNodeAnswer(ros::this_node::getName())) return;
+  if (!DoesNodeAnswer(ros::this_node::getName(), StartPatienceLeft())) return;
   throw SourceError("source '" + url + "': another running node is already named " +
                     ros::this_node::getName() + "; start this one with __name:=kinescope_view");
 }
@@ -106,8 +109,8 @@ class GraphSource : public Source {
   SourceCounters counters() const override {
     SourceCounters counters = counters_;
     const LiveTopics::Status status = topics_.status();
-    counters.transport = {{"ros_master_answers", status.master_answers ? 1 : 0},
-                          {"publishers", status.publishers}};
+    counters.transport = {{kMasterAnswers, status.master_answers ? 1 : 0},
+                          {kPublishers, status.publishers}};
     const auto add = [&](const char* name, std::uint64_t count) {
       if (count > 0) counters.transport[name] = count;
     };
@@ -261,6 +264,24 @@ class GraphSource : public Source {
 }  // namespace
 
 bool IsGraphUrl(std::string_view url) { return url.substr(0, kScheme.size()) == kScheme; }
+
+bool HasMaster(const Source& graph) {
+  const auto transport = graph.counters().transport;
+  const auto answers = transport.find(kMasterAnswers);
+  return answers != transport.end() && answers->second > 0;
+}
+
+std::string MissingInGraph(const Source& graph) {
+  if (!HasMaster(graph)) {
+    return fmt::format("no ROS master answers at {}: start roscore, or set ROS_MASTER_URI",
+                       ros::master::getURI());
+  }
+  if (graph.counters().transport.at(kPublishers) > 0) return "";
+  return fmt::format(
+      "no node publishes {}: start the bridge of a person, or name another topic, such as "
+      "ros:/xsens/link_states",
+      graph.description().substr(kScheme.size()));
+}
 
 std::unique_ptr<Source> OpenGraph(const std::string& url) {
   InitRos();

@@ -33,4 +33,11 @@ bool IsGraphUrl(std::string_view url);
 /// has this node's name: starting would shut it down.
 std::unique_ptr<Source> OpenGraph(const std::string& url);
 
+/// Whether a master answers the source of a graph.
+bool HasMaster(const Source& graph);
+
+/// What keeps the source of a graph from data, with the way out: no master answers, or no node
+/// publishes. "": neither.
+std::string MissingInGraph(const Source& graph);
+
 }  // namespace kinescope::ros_bridge

@@ -21,4 +21,7 @@ std::unique_ptr<Source> OpenGraph(const std::string& url) {
                     "the ROS packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
+bool HasMaster(const Source& /*graph*/) { return false; }
+std::string MissingInGraph(const Source& /*graph*/) { return ""; }
+
 }  // namespace kinescope::ros_bridge

@@ -23,9 +23,9 @@ for i in range(10000, end):
         continue
     print(port)
     break')
-# RViz wants a screen.
+# RViz wants a screen; statuses/rviz reports what it shows.
 case $file in
-  *rviz_launch.test) export LIBGL_ALWAYS_SOFTWARE=1 HOME="$folder"; screen='xvfb-run -a' ;;
+  *rviz_launch.test) PATH=$(dirname "$file")/statuses:$PATH; export LIBGL_ALWAYS_SOFTWARE=1 HOME="$folder"; screen='xvfb-run -a' ;;
   *) screen= ;;
 esac
 exec $screen "$python" "$rostest" "$file" "udp_port:=$port"

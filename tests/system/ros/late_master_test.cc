@@ -25,12 +25,15 @@ constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
 
 class LateMaster : public ::testing::Test {
  protected:
-  static Process Start(const BadMaster& master, const std::string& arguments) {
+  static Process Start(const BadMaster& master, const std::string& options) {
+    return StartProgram(master, "bridge demo:walk " + options);
+  }
+
+  static Process StartProgram(const BadMaster& master, const std::string& arguments) {
     setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", master.port()).c_str(), 1);
     setenv("ROS_IP", "127.0.0.1", 1);
     return Process(
-        {"/bin/bash", "-c",
-         "exec '" + testing::KinescopePath() + "' bridge demo:walk " + arguments + " 2>&1"});
+        {"/bin/bash", "-c", "exec '" + testing::KinescopePath() + "' " + arguments + " 2>&1"});
   }
 
   /// What it logs up to the first line with `text`.
@@ -87,6 +90,22 @@ TEST_F(LateMaster, ThatNeverAnswersIsNamedWithWhatIsMissing) {
   EXPECT_NE(log.find("live: "), std::string::npos) << log;
   bridge.Signal(SIGINT);
   EXPECT_EQ(bridge.WaitForEnd(), 0);
+}
+
+// The first question of each is that for another node of this name.
+TEST_F(LateMaster, IsNamedByInspectAndUrdf) {
+  const BadMaster master(NeverAnswer);
+  const std::string missing = fmt::format(
+      "no ROS master answers at http://127.0.0.1:{}: start roscore, or set ROS_MASTER_URI",
+      master.port());
+  Process inspect = StartProgram(master, "inspect ros: --seconds 0.1");
+  const std::string report = LogUntil(inspect, "No person");
+  EXPECT_NE(report.find("> " + missing), std::string::npos) << report;
+  EXPECT_EQ(inspect.WaitForEnd(), 1);
+  Process urdf = StartProgram(master, "urdf ros:");
+  const std::string error = LogUntil(urdf, "source 'ros:'");
+  EXPECT_NE(error.find("source 'ros:': " + missing), std::string::npos) << error;
+  EXPECT_EQ(urdf.WaitForEnd(), 2);
 }
 
 TEST_F(LateMaster, ThatIsRequiredAndNeverAnswersEndsTheProgram) {
