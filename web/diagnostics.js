@@ -1,4 +1,4 @@
-// Problems that the server and this page have now. The panel is visible only if there are any. What the stream had is in
+// Problems that the server, its ROS graph and this page have now. The panel is visible only if there are any. What the stream had is in
 // the panel "Stream".
 
 import { nameOfLeftOut } from './status.js';
@@ -11,7 +11,7 @@ const MOST_LINES = 12;
  *  @param {string[]} notShown  what its 3-D view does not show as it should
  *  @returns {string[]} */
 export function problemLines(diagnostics, failedMeshes, notShown = []) {
-  const { pictures, source, stream } = diagnostics;
+  const { pictures, source, stream, ros } = diagnostics;
   const lines = [];
   if (pictures?.last_error) lines.push(`Server rendering: ${pictures.last_error}`);
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
@@ -21,6 +21,11 @@ export function problemLines(diagnostics, failedMeshes, notShown = []) {
     if (warning !== '') lines.push(`${warning[0].toUpperCase()}${warning.slice(1)}.`);
   }
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
+  if (source?.transport?.ros_master_answers === 0) {
+    const where = ros?.master_uri ? ` at ${ros.master_uri}` : '';
+    lines.push(`No ROS master answers${where}: start roscore, or set ROS_MASTER_URI for the server.`);
+  }
+  for (const problem of ros?.not_shown ?? []) lines.push(`Not shown: ${problem}`);
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;
   return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more, see /api/v1/diagnostics`];

@@ -278,8 +278,11 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
 /** /api/v1/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
-  source: optional(object({ left_out: optional(listOf(readLeftOut)) })),
+  source: optional(object({
+    left_out: optional(listOf(readLeftOut)), transport: optional(object({ ros_master_answers: optional(number) })),
+  })),
   stream: optional(orNull(object({ clocks: listOf(readNodeClock) }))),
+  ros: optional(orNull(object({ master_uri: optional(string), not_shown: optional(listOf(string)) }))),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 

@@ -198,12 +198,21 @@ void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
   for (const MarkerStore::Lost& lost : store_.Unplaced()) {
     unplaced.insert(topics_[lost.topic].name + ": " + lost.text);
   }
+  std::vector<std::string> not_shown;
   for (const std::string& text : unplaced) {
-    const bool was_unplaced = unplaced_.count(text) != 0;
-    if (!was_unplaced || warned_.size() >= kMost || !warned_.insert(text).second) continue;
+    if (unplaced_.count(text) == 0) continue;
+    if (not_shown.size() < kMost) not_shown.push_back(text);
+    if (warned_.size() >= kMost || !warned_.insert(text).second) continue;
     spdlog::warn("{}; it is not shown", PrintableLine(text));
   }
   unplaced_ = std::move(unplaced);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  not_shown_ = std::move(not_shown);
+}
+
+std::vector<std::string> MarkerInbox::not_shown() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return not_shown_;
 }
 
 void MarkerInbox::SetPerson(const PersonState& person, double floor_z) {

@@ -64,6 +64,9 @@ class MarkerInbox {
 
   /// By topic. Any thread.
   std::map<std::string, InputCounters> counters() const;
+  /// What has stood in an unknown frame for five seconds or more: "/cloud: marker ...: frame
+  /// 'lidar' is not known yet". Any thread.
+  std::vector<std::string> not_shown() const;
 
  private:
   struct Body {
@@ -106,6 +109,7 @@ class MarkerInbox {
   std::deque<DecodedMessage> decoded_;             // guarded by mutex_
   std::size_t waiting_ = 0;                        // guarded by mutex_; in decoded_ and taken_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+  std::vector<std::string> not_shown_;             // guarded by mutex_
 };
 
 /// Calls the callbacks of an inbox on a thread of its own.

@@ -187,7 +187,11 @@ BridgeStatus MasterRegistration::status() const {
     }
   };
   add("", first_topics_.get());
-  if (wiring_.markers) status.inputs.merge(wiring_.markers->inbox()->counters());
+  if (wiring_.markers) {
+    const MarkerInbox& inbox = *wiring_.markers->inbox();
+    status.inputs.merge(inbox.counters());
+    for (std::string& text : inbox.not_shown()) status.not_shown.push_back(std::move(text));
+  }
   if (wiring_.robots) status.inputs.merge(wiring_.robots->counters());
   for (const auto& [character, slot] : slots_) {
     if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
@@ -255,7 +259,7 @@ void MasterRegistration::RegisterRegularly() {
     was_registered_ = true;
     SetParameters();
     ReadRobots();
-    WarnOfMissingTopics();
+    LookForMissingTopics();
   } while (WaitForNext());
 }
 
@@ -422,12 +426,10 @@ void MasterRegistration::ReadRobots() {
   }
 }
 
-// Once: a name may be mistyped.
-void MasterRegistration::WarnOfMissingTopics() {
+// A name may be mistyped: the log has that once, the status as long as it is so.
+void MasterRegistration::LookForMissingTopics() {
   constexpr std::int64_t kTopicPatienceNanos = 5'000'000'000;
-  if (!wiring_.markers || has_looked_for_topics_) return;
   if (markers_.empty() || MonotonicNanos() - markers_since_nanos_ < kTopicPatienceNanos) return;
-  has_looked_for_topics_ = true;
   std::set<std::string> missing;
   for (const ShownTopic& shown : wiring_.markers->inbox()->topics()) {
     const bool is_missing = std::any_of(markers_.begin(), markers_.end(), [&](const auto& heard) {
@@ -435,7 +437,14 @@ void MasterRegistration::WarnOfMissingTopics() {
     });
     if (is_missing && !shown.is_frame) missing.insert(shown.name);
   }
-  if (missing.empty()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_.not_shown.clear();
+    for (const std::string& topic : missing) {
+      status_.not_shown.push_back(topic + ": no node publishes it");
+    }
+  }
+  if (std::exchange(has_looked_for_topics_, true) || missing.empty()) return;
   spdlog::warn("no publisher of {} (--marker_topics); messages are shown once there is one",
                fmt::join(missing, ", "));
 }

@@ -120,7 +120,7 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   void ReadRobots();
-  void WarnOfMissingTopics();
+  void LookForMissingTopics();
   void OfferOrders();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);

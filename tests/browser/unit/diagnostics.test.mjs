@@ -32,6 +32,16 @@ test('clocks that differ are listed', () => {
   assert.deepEqual(problemLines({ stream: { clocks } }, []), ['The clock of /b is 3.00 s behind the server\'s.']);
 });
 
+test('what is not shown of a ROS graph is listed with the reason, and a master that does not answer', () => {
+  const ros = { master_uri: 'http://lab:11311', not_shown: ['/cloud: no node publishes it'] };
+  assert.deepEqual(problemLines({ ros }, []), ['Not shown: /cloud: no node publishes it']);
+  assert.deepEqual(problemLines({ ros, source: { transport: { ros_master_answers: 1 } } }, []).length, 1);
+  assert.deepEqual(problemLines({ ros, source: { transport: { ros_master_answers: 0 } } }, []), [
+    'No ROS master answers at http://lab:11311: start roscore, or set ROS_MASTER_URI for the server.',
+    'Not shown: /cloud: no node publishes it',
+  ]);
+});
+
 test('equal lines appear once, and long lists are shortened', () => {
   const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
   const lines = problemLines({ pictures: { problems } }, []);

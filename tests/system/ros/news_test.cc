@@ -7,6 +7,7 @@
 #include <kinescope/SetHandLoad.h>
 #include <rosgraph_msgs/Log.h>
 #include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -164,13 +166,36 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
   visualization_msgs::Marker wall;
   wall.ns = "walls";
   wall.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  walls.publish(wall);
   const auto server = Start(
       "serve demo:lift --ros required --http_port 0 --pictures off --marker_topics /wolls,/walls "
       "--robot ros:panda");
+  const std::string page = WaitForLine(*server, "page at ");
+  ASSERT_TRUE(Spin([&] { return walls.getNumSubscribers() > 0; }));
+  walls.publish(wall);
   WaitForLine(*server, "/walls: marker walls/0: ");
+  wall.header.frame_id = "lidar";
+  wall.pose.orientation.w = 1;
+  wall.type = visualization_msgs::Marker::CUBE;
+  wall.scale.x = wall.scale.y = wall.scale.z = wall.color.a = 1;
+  walls.publish(wall);
   WaitForLine(*server, "no publisher of /wolls (--marker_topics)");
   WaitForLine(*server, "/panda: the parameter is not set");
+  const auto not_shown = [&] {
+    const auto answer =
+        testing::RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out;
+    return nlohmann::json::parse(answer)["ros"]["not_shown"];
+  };
+  const std::string wolls = "/wolls: no node publishes it";
+  const std::string lidar = "/walls: marker walls/0: frame 'lidar' is not known yet";
+  EXPECT_TRUE(Spin([&] { return not_shown() == nlohmann::json{wolls, lidar}; })) << not_shown();
+  tf2_msgs::TFMessage place;
+  place.transforms.resize(1);
+  place.transforms[0].header.frame_id = "world";
+  place.transforms[0].child_frame_id = "lidar";
+  place.transforms[0].transform.rotation.w = 1;
+  const ros::Publisher places = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  places.publish(place);
+  EXPECT_TRUE(Spin([&] { return not_shown() == nlohmann::json{wolls}; })) << not_shown();
 }
 
 TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {
