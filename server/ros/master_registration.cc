@@ -488,16 +488,23 @@ void MasterRegistration::CountRefused(const char* topic, const char* kind) {
 // registration check shows whether it arrived.
 bool MasterRegistration::RegisterAll() {
   const std::string our_uri = ros::XMLRPCManager::instance()->getServerURI();
-  for (const auto& [topic, type] : topic_types_) {
-    if (registered_.count(topic) != 0) continue;
+  MasterClient master(ros::master::getHost(), static_cast<int>(ros::master::getPort()),
+                      Connection::kKept);
+  const auto add = [&](const std::string& topic, const std::string& type) {
+    if (registered_.count(topic) != 0) return true;
     XmlRpcValue arguments;
     arguments[0] = topic;
     arguments[1] = type;
     arguments[2] = our_uri;
-    if (master_.Call("registerPublisher", arguments).code != MasterReply::Code::kGood) return false;
+    if (master.Call("registerPublisher", arguments).code != MasterReply::Code::kGood) return false;
     registered_.insert(topic);
-  }
-  return true;
+    return true;
+  };
+  // Over a slow network each takes its time: what all viewers wait for comes first.
+  const auto frames = topic_types_.find("/tf");
+  if (frames != topic_types_.end() && !add(frames->first, frames->second)) return false;
+  return std::all_of(topic_types_.begin(), topic_types_.end(),
+                     [&](const auto& each) { return add(each.first, each.second); });
 }
 
 bool MasterRegistration::SetParameter(const std::string& name, const XmlRpcValue& value) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Two suits on two machines, the ROS master on a third one, monitor and page on a fourth one, with a network between them
-that delays and loses packets, a clock that is 3 s behind, and one that is set. Usage: machines_test.py PROGRAM SETUP WRONG_CLOCK
+that delays and loses packets, a clock that is 3 s behind, one that is set, and a master that moves. Usage: machines_test.py PROGRAM SETUP WRONG_CLOCK
 
 PROGRAM: the built kinescope. SETUP: setup.sh of the devel space. WRONG_CLOCK: the library that sets a program's clock wrong.
 Exit code 77: network namespaces or TUN devices are not possible here.
@@ -20,11 +20,11 @@ DELAY, JITTER, LOSS = 0.05, 0.02, 0.02  # s, s, share
 BEHIND = 3.0                             # s
 SET_BACK = 5.0                           # s
 PATIENCE = 60                            # s; only a failure takes so long
-PAGE = 'http://127.0.0.1:8080/api/v1/'
+PAGE, LATE = (f'http://127.0.0.1:{port}/api/v1/' for port in (8080, 8081))
 
 
-def get(what):
-    with urllib.request.urlopen(PAGE + what, timeout=10) as answer:
+def get(what, page=PAGE):
+    with urllib.request.urlopen(page + what, timeout=10) as answer:
         return json.load(answer)
 
 
@@ -57,12 +57,14 @@ def start(machine, name, command, **environment):
     with open(os.path.join(FOLDER, name + '.log'), 'w', encoding='utf-8') as log:
         children.append(machine.start(
             ['/bin/bash', '-c', f'. {SETUP} && exec {command}'],
-            {'ROS_MASTER_URI': f'http://{master.address}:11311', 'ROS_IP': machine.address, 'ROS_HOME': FOLDER,
+            {'ROS_MASTER_URI': f'http://{"master" if hosts else master.address}:11311', 'ROS_IP': machine.address, 'ROS_HOME': FOLDER,
              'XDG_CACHE_HOME': FOLDER, 'XDG_STATE_HOME': FOLDER, 'PATH': '/usr/bin:' + os.environ['PATH'], **environment},
             stdout=log, stderr=log))
 
 
 def start_everything():
+    if hosts:
+        hosts.set('master', master.address)
     start(master, 'master', 'roscore')
     start(suit_a, 'bridge_a', 'roslaunch --wait kinescope bridge.launch node:=bridge_a model_name:=anna source:=udp://:9763')
     start(suit_b, 'bridge_b', 'roslaunch --wait kinescope bridge.launch node:=bridge_b model_name:=ben source:=udp://:9763 '
@@ -140,11 +142,26 @@ def check_set():
     check_people()
 
 
+def check_moved():
+    """The master moves to another computer, which has its name from then on."""
+    if not hosts:
+        print('skipped: a master that moves needs mounts (unshare -rnm)')
+        return
+    network.cut(master)
+    hosts.set('master', new_master.address)
+    start(new_master, 'new_master', 'roscore')
+    start(page, 'late', f'{PROGRAM} serve ros: __name:=late --http_port 8081 --pictures off')
+    wait_for('both people for who comes after the move', lambda: names(get('state', LATE)) == ['anna', 'ben'])
+    wait_for('both people for who was there', lambda: names(get('state')) == ['anna', 'ben'])
+    print('ok     a master that moves is found where it is')
+
+
 machines.enter_own_network()
 network = machines.Network(DELAY, JITTER, LOSS, seed=1)
-suit_a, suit_b, page, master = (network.add(f'10.77.0.{i}') for i in (1, 2, 3, 4))
+suit_a, suit_b, page, master, new_master = (network.add(f'10.77.0.{i}') for i in (1, 2, 3, 4, 5))
 children = []
 with tempfile.TemporaryDirectory() as FOLDER:
+    hosts = machines.Names(os.path.join(FOLDER, 'hosts')) if machines.Names.are_possible() else None
     network.start()
     page.enter()
     try:
@@ -153,6 +170,7 @@ with tempfile.TemporaryDirectory() as FOLDER:
         check_clocks()
         check_cut()
         check_set()
+        check_moved()
         print(f'{network.passed} packets passed, {network.lost} lost')
     finally:
         killed = machines.stop(children)
