@@ -104,7 +104,7 @@ test('cameras are read as numbers and rejected if invalid', () => {
 });
 
 test('diagnostics of parts that do not run are absent', () => {
-  assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined, stream: undefined });
+  assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, ros: undefined, source: undefined, stream: undefined });
   assert.equal(readDiagnostics({ pictures: null, stream: null }, '').stream, null);
   assert.throws(() => readDiagnostics({ source: { left_out: [{ character: 3 }] } }, 'api/v1/diagnostics'),
     /nothing as api\/v1\/diagnostics\.source\.left_out\[0\]\.name; expected a text/);
