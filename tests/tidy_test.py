@@ -58,7 +58,8 @@ class Batch:
             together.write("".join(f'#include "{file}"\n' for file in self.files))
             together.flush()
             found = tidy([together.name, "--", *self._flags])
-        if len(self.files) > 1 and any("clang-diagnostic-error" in line for line in found):  # two have the same name for something
+        # What is found depends on no file beside: two may have the same name for something, and some checks see more together.
+        if len(self.files) > 1 and found:
             found = set().union(*(Batch([file], self._flags).findings(folder) for file in self.files))
         return found.union(*map(self._alone, self.files))
 

@@ -56,6 +56,11 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
 
 }  // namespace
 
+Hindrance HindranceOf(const std::string& url, const Source& source) {
+  if (!ros_bridge::IsGraphUrl(url)) return {};
+  return {ros_bridge::MissingInGraph(source), !ros_bridge::HasMaster(source)};
+}
+
 bool IsBag(const std::string& url) {
   std::error_code ignored;
   if (KindOfSource(url) != SourceKind::kFile || !std::filesystem::is_regular_file(url, ignored)) {

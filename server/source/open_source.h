@@ -30,6 +30,14 @@ struct SourceSettings {
 /// asks for what only a bag has.
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings = {});
 
+/// What keeps a source from data, with the way out: of a ROS graph, that no master answers
+/// (`is_for_long`), or that no node publishes its topic. `text` is "" if nothing is known to.
+struct Hindrance {
+  std::string text;
+  bool is_for_long = false;
+};
+[[nodiscard]] Hindrance HindranceOf(const std::string& url, const Source& source);
+
 /// Whether `url` names a file that is a ROS bag. A pipe is none.
 [[nodiscard]] bool IsBag(const std::string& url);
 

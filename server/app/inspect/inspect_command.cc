@@ -23,7 +23,6 @@
 #include "server/mvn/open.h"
 #include "server/options/ros_names.h"
 #include "server/ros/source/bag_source.h"
-#include "server/ros/source/graph_source.h"
 #include "server/source/open_source.h"
 #include "server/source/scheme.h"
 
@@ -228,7 +227,7 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
       report = InspectSamples(*source, *options.seconds, false);
       report.format = "ROS graph";
       if (report.CanBeShown()) break;
-      const std::string missing = ros_bridge::MissingInGraph(*source);
+      const std::string missing = HindranceOf(*options.source, *source).text;
       if (!missing.empty()) report.advice.push_back(missing);
       break;
     }

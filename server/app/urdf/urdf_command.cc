@@ -11,6 +11,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "server/app/commands.h"
@@ -21,7 +22,6 @@
 #include "server/app/urdf/urdf_report.h"
 #include "server/body/body_meshes.h"
 #include "server/options/option_list.h"
-#include "server/ros/source/graph_source.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
@@ -102,7 +102,6 @@ Model LiveModel(const std::string& url, const SceneOptions& options) {
   builder.Start();
   DescribedPeople described(builder);
   spdlog::info("waiting up to {} s for a person from {}", kPatienceSecs, source->description());
-  const bool is_graph = ros_bridge::IsGraphUrl(url);
   const std::int64_t end = MonotonicNanos() + kPatienceSecs * kNanosPerSecond;
   bool has_ended = false;
   while (!has_ended && !StopRequested() && MonotonicNanos() < end) {
@@ -110,14 +109,13 @@ Model LiveModel(const std::string& url, const SceneOptions& options) {
     for (const PersonState& person : state->people) {
       if (described.Has(person.character)) return person.model;
     }
-    const bool is_in_vain = is_graph && MonotonicNanos() - begin > kMasterPatienceNanos &&
-                            !ros_bridge::HasMaster(*source);
-    if (is_in_vain) break;
+    const bool is_time_to_look = MonotonicNanos() - begin > kMasterPatienceNanos;
+    if (is_time_to_look && HindranceOf(url, *source).is_for_long) break;
   }
-  const std::string missing = is_graph ? ros_bridge::MissingInGraph(*source) : "";
+  const std::string missing = HindranceOf(url, *source).text;
   if (!missing.empty()) throw SourceError("source '" + url + "': " + missing);
   const char* const way_out =
-      is_graph ? "start the bridge of a person" : "switch on Scaling Data in MVN";
+      StartsWith(url, "ros:") ? "start the bridge of a person" : "switch on Scaling Data in MVN";
   throw SourceError(
       fmt::format("source '{}': no person with poses and segment lengths received within {} s; "
                   "{}, and check the stream with `kinescope inspect`",

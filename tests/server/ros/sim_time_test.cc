@@ -68,7 +68,7 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
   std::vector<double> Run(double start, std::size_t count) {
     stamps_.clear();
     const std::int64_t began = MonotonicNanos();
-    worst_error_ = 0;
+    errors_.clear();
     EXPECT_TRUE(Within(kTestPatience, [&] {
       const double now = start + 0.5 * Secs(MonotonicNanos() - began);
       rosgraph_msgs::Clock tick;
@@ -79,14 +79,20 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
       queue_.callAvailable();
       DropStampsBefore(start);
       for (std::size_t i = known; i < stamps_.size(); ++i) {
-        worst_error_ = std::max(worst_error_, std::abs(stamps_[i] - now));
+        errors_.push_back(std::abs(stamps_[i] - now));
       }
       return stamps_.size() >= count;
     }));
     return stamps_;
   }
 
-  double worst_error_ = 0;  // of the last Run(), s
+  // Of the last Run(), s. A busy machine makes some large.
+  double MedianError() const {
+    std::vector<double> errors = errors_;
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return *middle;
+  }
 
  private:
   // What was still under way when the simulator started over.
@@ -101,7 +107,7 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
   std::optional<ros::NodeHandle> node_;
   ros::Publisher clock_;
   ros::Subscriber com_;
-  std::vector<double> stamps_;  // s
+  std::vector<double> stamps_, errors_;  // s
   std::optional<std::uint32_t> last_seq_;
 };
 
@@ -112,7 +118,7 @@ TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
   EXPECT_EQ(bridge_->status().published, 0U) << "nothing has said what time it is";
   for (const double start : {100.0, 3.0}) {
     const std::vector<double> stamps = Run(start, 60);
-    EXPECT_LT(worst_error_, 10);
+    EXPECT_LT(MedianError(), 0.1);
     EXPECT_GE(stamps.front(), start - 0.1);
     EXPECT_EQ(std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()),
               stamps.end())
