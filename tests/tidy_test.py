@@ -60,7 +60,11 @@ class Batch:
             found = tidy([together.name, "--", *self._flags])
         # What is found depends on no file beside: two may have the same name for something, and some checks see more together.
         if len(self.files) > 1 and found:
-            found = set().union(*(Batch([file], self._flags).findings(folder) for file in self.files))
+            named = {pathlib.PurePosixPath(line.split(":")[0]).with_suffix("") for line in found}
+            again = [file for file in self.files if file.with_suffix("") in named]
+            if not again or any("clang-diagnostic-error" in line for line in found):
+                again = self.files
+            found = set().union(*(Batch([file], self._flags).findings(folder) for file in again))
         return found.union(*map(self._alone, self.files))
 
     def _alone(self, file):
