@@ -13,7 +13,6 @@
 #include "tests/process.h"
 #include "tests/server/ros/bad_master.h"
 #include "tests/system/kinescope_path.h"
-#include "tests/temp_folder.h"
 
 namespace kinescope {
 namespace {
@@ -45,9 +44,6 @@ class LateMaster : public ::testing::Test {
     }
     return log;
   }
-
- private:
-  const testing::TempFolder folder_;
 };
 
 void AnswerLate(int connection, const std::string& request) {

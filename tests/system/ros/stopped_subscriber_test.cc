@@ -1,5 +1,5 @@
 // Subscribers that stop reading, as a laptop does whose lid was closed: those that read get every
-// sample, and the bridge does not keep what nobody takes.
+// sample, and the bridge does not keep what is not taken.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
