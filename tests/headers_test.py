@@ -5,9 +5,9 @@ of each std:: name in it, instead of relying on another header.
 tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests] [--only PART_OF_A_PATH]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
   definitions of each folder; generated headers (ROS messages) must exist. Compiles the headers that differ
-  from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since. Default of COMMIT: the commit where this branch left
-  origin/main, or the last commit but one if it has not left origin/main. --all: compiles all, which takes
-  eight CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
+  from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since.
+  Default of COMMIT: the commit where this branch left origin/main, or the last commit but one if it has not
+  left origin/main. --all: compiles all, which takes five CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
   Exit code 1 if an include is missing; one line per finding: header, line, problem.
 """
 import argparse

@@ -7,12 +7,12 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/process.h"
+#include "tests/system/process_memory.h"
 #include "tests/system/ros/ros_fixture.h"
 #include "tests/system/run_program.h"
 
@@ -20,18 +20,9 @@ namespace kinescope {
 namespace {
 
 using ::testing::Each;
+using testing::MegabytesOf;
 using testing::Process;
 using testing::RunProgram;
-
-// In MB.
-double MostMemoryOf(int process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/status");
-  for (std::string word; status >> word;) {
-    double kib = 0;
-    if (word == "VmHWM:" && status >> kib) return kib / 1000;
-  }
-  return 0;
-}
 
 class Flood : public testing::RosProgram {
  protected:
@@ -121,7 +112,7 @@ TEST_F(Flood, OfLargeCloudsKeepsNoPersonWaiting) {
     return input()["used"] >= 10 && !ros["rejected_calls"].empty();
   })) << ros;
   EXPECT_THAT(states, Each("live"));
-  EXPECT_LT(MostMemoryOf(server->pid()), 1000) << "MB";
+  EXPECT_LT(MegabytesOf(server->pid(), "VmHWM:"), 1000) << "MB";
 }
 
 }  // namespace

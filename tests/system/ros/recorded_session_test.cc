@@ -2,10 +2,8 @@
 // published meanwhile.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <ros/network.h>
 #include <signal.h>
 #include <tf2_msgs/TFMessage.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <cmath>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "render/image/png_file.h"
+#include "server/ros/master_client.h"
 #include "tests/system/ros/ros_fixture.h"
 #include "tests/system/run_program.h"
 
@@ -32,23 +31,17 @@ constexpr char kArm[] =
 class RecordedSession : public testing::RosProgram {
  protected:
   // The topics that the node has a connection to the recorder for.
-  std::set<std::string> Recorded(const std::string& node) const {
-    XmlRpc::XmlRpcValue name, found, bus;
-    name[0] = "/test";
-    name[1] = node;
-    XmlRpc::XmlRpcClient master("127.0.0.1", port_.number(), "/");
-    if (!master.execute("lookupNode", name, found) || int(found[0]) != 1) return {};
-    std::string host;
-    std::uint32_t port = 0;
-    ros::network::splitURI(std::string(found[2]), host, port);
-    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-    XmlRpc::XmlRpcValue caller;
-    caller[0] = "/test";
-    if (!client.execute("getBusInfo", caller, bus)) return {};
+  static std::set<std::string> Recorded(const std::string& node) {
+    const auto server = ros_bridge::FindNodeServer(node);
+    if (!server) return {};
+    ros_bridge::MasterReply bus =
+        ros_bridge::MasterClient(server->host, server->port).Call("getBusInfo", {});
+    if (bus.code != ros_bridge::MasterReply::Code::kGood) return {};
     std::set<std::string> topics;
-    for (int i = 0; i < bus[2].size(); ++i) {
-      const bool is_out = std::string(bus[2][i][2]) == "o";
-      if (is_out && std::string(bus[2][i][1]) == "/recorder") topics.insert(bus[2][i][4]);
+    for (int i = 0; i < bus.value.size(); ++i) {
+      XmlRpc::XmlRpcValue& connection = bus.value[i];
+      const bool is_out = std::string(connection[2]) == "o";
+      if (is_out && std::string(connection[1]) == "/recorder") topics.insert(connection[4]);
     }
     return topics;
   }

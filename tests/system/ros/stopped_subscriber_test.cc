@@ -3,48 +3,46 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
-#include <ros/network.h>
 #include <sensor_msgs/JointState.h>
 #include <sys/socket.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 #include <visualization_msgs/MarkerArray.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "server/ros/master_client.h"
+#include "tests/system/process_memory.h"
 #include "tests/system/ros/ros_fixture.h"
 
 namespace kinescope {
 namespace {
 
-using testing::Process;
+using ros_bridge::MasterClient;
+using ros_bridge::MasterReply;
+using ros_bridge::NodeServer;
+using testing::MegabytesOf;
 
 // Subscribes as roscpp does, and reads nothing.
 class StuckSubscriber {
  public:
-  StuckSubscriber(const std::string& node_uri, const std::string& topic, const std::string& type) {
-    std::string host;
-    std::uint32_t port = 0;
-    EXPECT_TRUE(ros::network::splitURI(node_uri, host, port));
-    XmlRpc::XmlRpcValue question, answer;
-    question[0] = "/stuck";
-    question[1] = topic;
-    question[2][0][0] = "TCPROS";
-    XmlRpc::XmlRpcClient node(host.c_str(), static_cast<int>(port), "/");
-    EXPECT_TRUE(node.execute("requestTopic", question, answer) && int(answer[0]) == 1) << topic;
+  StuckSubscriber(const NodeServer& node, const std::string& topic, const std::string& type) {
+    XmlRpc::XmlRpcValue question;
+    question[0] = topic;
+    question[1][0][0] = "TCPROS";
+    MasterReply answer = MasterClient(node.host, node.port).Call("requestTopic", question);
+    EXPECT_EQ(answer.code, MasterReply::Code::kGood) << topic;
     const int smallest = 1;  // so that little waits in the kernel
     setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &smallest, sizeof(smallest));
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(int(answer[2][2])));
+    address.sin_port = htons(static_cast<std::uint16_t>(int(answer.value[2])));
     inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
     EXPECT_EQ(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
     std::string header;
@@ -71,17 +69,6 @@ class StuckSubscriber {
   const int socket_ = socket(AF_INET, SOCK_STREAM, 0);
 };
 
-double ResidentMegabytes(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  std::string word;
-  double kib = 0;
-  while (status >> word) {
-    if (word == "VmRSS:" && status >> kib) return kib / 1000;
-  }
-  ADD_FAILURE() << "no VmRSS";
-  return 0;
-}
-
 class StoppedSubscriber : public testing::RosProgram {};
 
 TEST_F(StoppedSubscriber, CostsTheBridgeNoMemoryAndOthersNoSample) {
@@ -107,28 +94,24 @@ TEST_F(StoppedSubscriber, CostsTheBridgeNoMemoryAndOthersNoSample) {
     return std::all_of(subscribers_.begin(), subscribers_.end(),
                        [](const auto& each) { return each.getNumPublishers() == 1; });
   }));
-  XmlRpc::XmlRpcValue name, found;
-  name[0] = "/test";
-  name[1] = "/kinescope";
-  XmlRpc::XmlRpcClient master("127.0.0.1", port_.number(), "/");
-  ASSERT_TRUE(master.execute("lookupNode", name, found));
-  const std::string node = found[2];
-  const StuckSubscriber links(node, "/kinescope/link_states", "xsens_mvn_ros_msgs/LinkStateArray"),
-      tf(node, "/tf", "tf2_msgs/TFMessage"),
-      joints(node, "/kinescope/joint_states", "sensor_msgs/JointState"),
-      markers(node, "/kinescope/markers", "visualization_msgs/MarkerArray");
+  const auto node = ros_bridge::FindNodeServer("/kinescope");
+  ASSERT_TRUE(node);
+  const StuckSubscriber links(*node, "/kinescope/link_states", "xsens_mvn_ros_msgs/LinkStateArray"),
+      tf(*node, "/tf", "tf2_msgs/TFMessage"),
+      joints(*node, "/kinescope/joint_states", "sensor_msgs/JointState"),
+      markers(*node, "/kinescope/markers", "visualization_msgs/MarkerArray");
 
   const auto count = [&] { return std::set<ros::Time>(stamps.begin(), stamps.end()).size(); };
   stamps.clear();
   const auto suit = Start("stream demo:walk --rate_hz 480 --seconds 4.5 --to " + address);
   ASSERT_TRUE(Spin([&] { return count() >= kUntilFull; }));
   megabytes = 0;
-  const double before = ResidentMegabytes(bridge->pid());
+  const double before = MegabytesOf(bridge->pid(), "VmRSS:");
   EXPECT_TRUE(Spin([&] { return count() >= kSamples; })) << count() << " samples";
   EXPECT_EQ(stamps.size(), count()) << "each once";
   EXPECT_TRUE(std::is_sorted(stamps.begin(), stamps.end()));
   EXPECT_GT(megabytes, 10);
-  const double grown = ResidentMegabytes(bridge->pid()) - before;
+  const double grown = MegabytesOf(bridge->pid(), "VmRSS:") - before;
   EXPECT_LT(grown, megabytes / 3);
   RecordProperty("published_mb", std::to_string(megabytes));
   RecordProperty("grown_mb", std::to_string(grown));
