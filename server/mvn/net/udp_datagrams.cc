@@ -44,13 +44,16 @@ struct UdpDatagrams::Batch {
                                                CMSG_SPACE(sizeof(in_pktinfo)) +
                                                CMSG_SPACE(sizeof(in6_pktinfo));
 
+  using Bytes = std::array<char, kLargestDatagram>;
+
+  // Apart from the bytes: what every read writes lies together, in a few pages.
   struct Slot {
-    std::array<char, kLargestDatagram> bytes;
     alignas(cmsghdr) std::array<char, kControlBytes> control;
     SocketAddress sender;
     iovec vector{};
   };
 
+  std::vector<Bytes> bytes = std::vector<Bytes>(kBatchSize);
   std::vector<Slot> slots = std::vector<Slot>(kBatchSize);
   std::vector<mmsghdr> headers = std::vector<mmsghdr>(kBatchSize);
   ReceivedDatagram datagram;  // the one that is delivered
@@ -59,7 +62,7 @@ struct UdpDatagrams::Batch {
   void Reset() {
     for (std::size_t i = 0; i < slots.size(); ++i) {
       Slot& slot = slots[i];
-      slot.vector = {slot.bytes.data(), slot.bytes.size()};
+      slot.vector = {bytes[i].data(), bytes[i].size()};
       msghdr& header = headers[i].msg_hdr;
       header = {};
       header.msg_name = slot.sender.get();
@@ -161,8 +164,7 @@ int UdpDatagrams::ReadBatch(DatagramSink& sink) {
       continue;
     }
     ReadAncillary(&batch_->headers[i].msg_hdr);
-    batch_->datagram.bytes =
-        std::string_view(batch_->slots[i].bytes.data(), batch_->headers[i].msg_len);
+    batch_->datagram.bytes = std::string_view(batch_->bytes[i].data(), batch_->headers[i].msg_len);
     sink.OnDatagram(batch_->datagram);
   }
   return count;
