@@ -25,6 +25,15 @@ SourceSettings SettingsFor(const SceneOptions& options, SourceSettings settings)
   return settings;
 }
 
+// The URL; told before a graph or a socket is waited for.
+const std::string& RecordedUrl(const std::string& url) {
+  if (!IsLiveUrl(url)) return url;
+  throw UsageError(fmt::format(
+      "source '{}': this command cannot read a live stream; record the stream first ({}), or use "
+      "demo:lift",
+      url, KindOfSource(url) == SourceKind::kGraph ? "rosbag record -a" : "kinescope record"));
+}
+
 }  // namespace
 
 void CheckReach(const std::string& option, double secs, const std::string& url) {
@@ -54,13 +63,7 @@ SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
 }
 
 SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
-    : SceneReader(OpenSource(url, SettingsFor(options, {})), url, options) {
-  if (source_->is_live()) {
-    throw UsageError("source '" + url +
-                     "': this command cannot read a live stream; record the stream first "
-                     "(kinescope record, or rosbag record /tf), or use demo:lift");
-  }
-}
+    : SceneReader(OpenSource(RecordedUrl(url), SettingsFor(options, {})), url, options) {}
 
 SceneReader SceneReader::OfAnySource(const std::string& url, const SceneOptions& options,
                                      const SourceSettings& settings) {

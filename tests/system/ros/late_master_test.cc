@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -102,6 +103,20 @@ TEST_F(LateMaster, IsNamedByInspectAndUrdf) {
   const std::string error = LogUntil(urdf, "source 'ros:'");
   EXPECT_NE(error.find("source 'ros:': " + missing), std::string::npos) << error;
   EXPECT_EQ(urdf.WaitForEnd(), 2);
+}
+
+// Live sources are refused by their name, without asking it.
+TEST_F(LateMaster, IsNotAskedForASourceThatTheCommandCannotRead) {
+  std::atomic<bool> is_asked = false;
+  const BadMaster master([&](int connection, const std::string& request) {
+    is_asked = true;
+    NeverAnswer(connection, request);
+  });
+  Process render = StartProgram(master, "render ros: --time 0 --out unused.png");
+  const std::string error = LogUntil(render, "cannot read a live stream");
+  EXPECT_NE(error.find("record the stream first (rosbag record -a)"), std::string::npos) << error;
+  EXPECT_EQ(render.WaitForEnd(), 2);
+  EXPECT_FALSE(is_asked);
 }
 
 TEST_F(LateMaster, ThatIsRequiredAndNeverAnswersEndsTheProgram) {
