@@ -399,6 +399,7 @@ async function loadDiagnostics() {
   try {
     const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
     hasDiagnostics = diagnostics !== null;
+    stream.setFrame(diagnostics?.ros?.frame ?? '');
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? [], scene?.problems));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);

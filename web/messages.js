@@ -282,7 +282,9 @@ export const readDiagnostics = object({
     left_out: optional(listOf(readLeftOut)), transport: optional(object({ ros_master_answers: optional(number) })),
   })),
   stream: optional(orNull(object({ clocks: listOf(readNodeClock) }))),
-  ros: optional(orNull(object({ master_uri: optional(string), not_shown: optional(listOf(string)) }))),
+  ros: optional(orNull(object({
+    master_uri: optional(string), frame: optional(string), not_shown: optional(listOf(string)),
+  }))),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 

@@ -114,8 +114,9 @@ function clockRows(clock) {
 /** @param {StreamHealth} stream
  *  @param {number|null} ageMillis  of the newest sample; null: not known
  *  @param {number|null} serverNow  ms
+ *  @param {string} [frame]  of ROS, in which the scene stands; '': without ROS
  *  @returns {Row[]} */
-export function streamRows(stream, ageMillis, serverNow) {
+export function streamRows(stream, ageMillis, serverNow, frame = '') {
   const newestFirst = [...stream.rejected].sort((a, b) => (b.last_micros ?? 0) - (a.last_micros ?? 0));
   const refused = newestFirst.map((each) => eventRow(`Refused: ${each.reason}`, each, serverNow));
   const none = { name: 'Refused datagrams', recent: '0', all: '0', last: 'never', isRecent: false };
@@ -132,6 +133,7 @@ export function streamRows(stream, ageMillis, serverNow) {
     ...(stream.clock_steps?.count ? [eventRow('Clock of the server set', stream.clock_steps, serverNow)] : []),
     ...stream.clocks.flatMap(clockRows),
     ...(refused.length > 0 ? refused : [none]),
+    ...(frame === '' ? [] : [{ name: `Frame of the scene: ${frame}`, recent: '–', all: '–', last: '–', isRecent: false }]),
   ];
 }
 

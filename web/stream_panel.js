@@ -10,6 +10,7 @@ export class StreamPanel {
   #alarm = new LossAlarm();
   /** @type {StreamHealth|null} */ #stream = null;
   #shownAt = -Infinity;
+  #frame = '';
 
   /** @param {Parts} parts */
   constructor(parts) {
@@ -32,6 +33,11 @@ export class StreamPanel {
     this.#stream = stream;
   }
 
+  /** @param {string} frame  of ROS, in which the scene stands; '': without ROS */
+  setFrame(frame) {
+    this.#frame = frame;
+  }
+
   /** For the lamp: the share lost or incomplete in the last 10 s, and whether that is a state of its own.
    *  @param {number} now  ms
    *  @returns {{loss: number|null, isLosing: boolean}} */
@@ -48,7 +54,7 @@ export class StreamPanel {
     this.#shownAt = now;
     const line = streamLine(this.#stream);
     if (this.parts.line.textContent !== line) this.parts.line.textContent = line;
-    if (this.parts.details.open) this.#fill(streamRows(this.#stream, ageMillis, serverNow));
+    if (this.parts.details.open) this.#fill(streamRows(this.#stream, ageMillis, serverNow, this.#frame));
   }
 
   /** Rows stay where they are, so that a text can be selected.

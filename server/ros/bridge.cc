@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -179,6 +180,8 @@ class Bridge : public RosBridge {
     const std::int64_t now = MonotonicNanos();
     if (config_.finds_frame && scene_frame_->IsDue(now)) {
       scene_frame_->Update(now, markers_in_ ? markers_in_->FirstFrame() : "");
+      const std::lock_guard<std::mutex> lock(frame_mutex_);
+      frame_ = scene_frame_->name();
     }
     // Robots first: their links may be frames of markers.
     if (robots_in_) robots_in_->Deliver(now, is_stale_ ? 0 : shown_stamp_nanos_, sink);
@@ -200,6 +203,8 @@ class Bridge : public RosBridge {
     BridgeStatus status = registration_.status();
     status.published = published_;
     status.missed = missed_;
+    const std::lock_guard<std::mutex> lock(frame_mutex_);
+    status.frame = frame_;
     return status;
   }
 
@@ -476,6 +481,8 @@ class Bridge : public RosBridge {
   const std::shared_ptr<MarkerListener> marker_listener_ =
       markers_in_ ? std::make_shared<MarkerListener>(markers_in_) : nullptr;
   MasterRegistration registration_;
+  mutable std::mutex frame_mutex_;
+  std::string frame_ = config_.reference_frame;  // of the scene; guarded by frame_mutex_
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
 

@@ -162,6 +162,7 @@ struct BridgeStatus {
   /// program without another task should end.
   bool shutdown_requested = false;
   std::map<std::string, InputCounters> inputs;  // by topic, as "hand_wrench/right"
+  std::string frame;  // in which the scene stands: the reference frame, or the root of TF
   std::vector<std::string> not_shown;  // of --marker_topics, now: "/cloud: no node publishes it"
   /// Answers of the master and requests to this node that were rejected, by reason
   /// (xmlrpc_limits.h).

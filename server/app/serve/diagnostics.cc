@@ -110,6 +110,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
         {"published", ros->published},           {"missed", ros->missed},
         {"master_returns", ros->master_returns}, {"inputs", json::object()}};
     out["ros"]["rejected_calls"] = ros->rejected_calls;
+    out["ros"]["frame"] = ros->frame;
     out["ros"]["not_shown"] = ros->not_shown;
     for (const auto& [topic, input] : ros->inputs) out["ros"]["inputs"][topic] = ToJson(input);
   }

@@ -44,6 +44,12 @@ test('the table shows the last ten seconds, all, and when last', () => {
   ]);
 });
 
+test('the frame of ROS in which the scene stands is the last row', () => {
+  const last = (/** @type {string} */ frame) => streamRows(quiet, null, null, frame).at(-1);
+  assert.equal(last('map')?.name, 'Frame of the scene: map');
+  assert.equal(last('')?.name, 'Refused datagrams');
+});
+
 test('a problem that is over is history', () => {
   const stream = { ...quiet, lost: 12, loss: 0.0002627, gaps: { count: 3, count_10s: 0, last_micros: 10e6 } };
   const rows = streamRows(stream, 3210, NOW);

@@ -90,6 +90,8 @@ TEST_F(WithoutAPerson, AServerShowsTheGraphUntilOneComes) {
     publish();
     return liveness() == "no person";
   }));
+  const auto frame = [&] { return Fetch(port, "/api/v1/diagnostics").json()["ros"]["frame"]; };
+  EXPECT_TRUE(Spin([&] { return frame() == "map"; })) << frame();
   std::filesystem::path png = folder_ / "live.png";
   EXPECT_TRUE(Spin([&] {
     publish();
@@ -103,6 +105,7 @@ TEST_F(WithoutAPerson, AServerShowsTheGraphUntilOneComes) {
   const auto human = Start("bridge demo:walk __name:=human --ros required");
   EXPECT_TRUE(Spin([&] { return liveness() == "live"; }));
   EXPECT_EQ(Fetch(port, "/api/v1/state").json()["people"].size(), 1u);
+  EXPECT_TRUE(Spin([&] { return frame() == "world"; })) << frame();
 }
 
 TEST_F(WithoutAPerson, ABagIsDrawnAndPlayed) {
