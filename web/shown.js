@@ -167,6 +167,7 @@ export class Shown {
    *  @param {number} now */
   #play(micros, now) {
     const { speed } = this.time;
+    this.#askedMicros = NaN;  // where it stops is asked for, also if it was there before
     const former = this.#run.at(micros, speed);
     try {
       if (former !== null) this.#show(former);

@@ -209,11 +209,14 @@ test('the page takes up a server that was started again, with its bodies and mom
     await page.waitForFunction(() => document.getElementById('banner').textContent.includes('No connection to the server'), null, LONG);
   }
   const again = live.page.waitForRequest(/api\/v1\/model/, LONG);
+  // Both say it for some seconds, at one time.
+  const said = [[live, /^The server restarted$/], [behind, /restarted: the moment that you looked at is gone$/]].map(([{ page }, words]) =>
+    page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').textContent), words.source, LONG));
   const second = await startFixture(['--port', new URL(first.url).port, '--worn']);
   second.say('live');
   await again;  // another body has the revision of the one before
-  for (const [{ page }, words] of [[live, /^The server restarted$/], [behind, /restarted: the moment that you looked at is gone$/]]) {
-    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('banner').textContent), words.source, LONG);
+  await Promise.all(said);
+  for (const { page } of [live, behind]) {
     await statusIs(page, 'Live');
     assert.equal(await page.getAttribute('body', 'data-time'), 'live');
   }
@@ -334,13 +337,21 @@ test('the server picture replaces the view without WebGL', async () => {
 test('an HTML answer of a proxy is reported, and the rest of the page works', async () => {
   const { page, problems, close } = await openLive({
     beforeLoad: async (fresh) => {
+      await fresh.addInitScript(() => {  // it is said for some seconds, while the page is loaded
+        window.said = [];
+        addEventListener('DOMContentLoaded', () => {
+          const banner = document.getElementById('banner');
+          new MutationObserver(() => window.said.push(banner.textContent))
+            .observe(banner, { childList: true, characterData: true, subtree: true });
+        });
+      });
       for (const route of ['diagnostics', 'cameras']) {
         await fresh.route(`**/api/v1/${route}`, (request) => request.fulfill({ contentType: 'text/html', body: '<h1>Hi</h1>' }));
       }
     },
   });
   await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
-  await page.waitForFunction(() => /cameras.*text\/html/.test(document.getElementById('banner').textContent), null, LONG);
+  await page.waitForFunction(() => window.said.some((text) => /cameras.*text\/html/.test(text)), null, LONG);
   await page.waitForFunction(() => /diagnostics.*text\/html/.test(document.getElementById('problems').textContent), null, LONG);
   assert.deepEqual(problems, []);
   await close();

@@ -313,6 +313,7 @@ test('a recording is never called live: the page says where in it the viewer is,
   await page.setViewportSize(PHONE);
   await saveScreenshot(page, 'recording_phone');
   await statusIs(page, /^Recording 0:08\.0 of 0:08$/);
+  await sampleIs(page, last);  // also when it was at the end before
   const words = await page.evaluate(() => window.words);
   assert.deepEqual(words.filter((word) => !/^(Connecting|No data|Recording [\d:.]+( of 0:08)?)$/.test(word)), []);
   assert.deepEqual(problems, []);
