@@ -131,7 +131,7 @@ enum class Liveness {
   kNoData,  // no sample received yet
   kLive,
   kStale,     // no new samples: poses are old, loads are unknown
-  kNoPerson,  // the source lives, and has had no person yet: robots and what is about them
+  kNoPerson,  // the source lives, and has no person now: robots and what is about them
 };
 
 /// "no data", "live", "stale", "no person".

@@ -71,7 +71,8 @@ class SampleSink {
   virtual void OnObjects(const ObjectsSample&) {}
   /// Those of a recording from the next sample on, in place of those before.
   virtual void OnSurroundings(const RecordedSurroundings&) {}
-  /// Takes the place of samples, in ascending order of time, until the first sample comes.
+  /// Takes the place of samples, in ascending order of time, while there is no person: before the
+  /// first sample, and in a recording also after people have left.
   virtual void OnMoment(const SourceMoment&) {}
 };
 

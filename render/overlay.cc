@@ -19,6 +19,15 @@ namespace {
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
 constexpr Rgb kMarkColor{0.25, 0.45, 0.75};
 
+// A recording may go on without the people whose poses are old.
+std::int64_t LastSampleMillis(const SceneState& state) {
+  std::int64_t last = 0;
+  for (const PersonState& person : state.people) {
+    last = std::max(last, person.sample.time_code_millis);
+  }
+  return state.people.empty() ? state.time_code_millis : last;
+}
+
 // The same page with other colours.
 OverlayPage With(const OverlayPage& page, const Inks& inks) { return {page, page.canvas, inks}; }
 
@@ -150,7 +159,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
   if (!parts.banner) return;
   page.canvas.Begin("banner");
   if (state.liveness == Liveness::kStale) {
-    PaintBanner(page, "STALE – last sample " + TimeCode(state.time_code_millis), "STALE");
+    PaintBanner(page, "STALE – last sample " + TimeCode(LastSampleMillis(state)), "STALE");
   } else if (!state.left_out.empty()) {
     const LeftOutPerson& first = state.left_out.front();
     const std::string count = std::to_string(state.left_out.size());

@@ -87,7 +87,7 @@ function streamStatusOf(now) {
     const since = now.ageMillis === null ? '' : `: last sample received ${age(now.ageMillis / 1000)} ago`;
     return { level: 'stale', word: 'Stale', note: 'the stream has stopped', banner: `The stream has stopped${since}` };
   }
-  if (now.liveness === 'no person') return { level: 'live', word: 'Live', note: 'no person yet', banner: '' };
+  if (now.liveness === 'no person') return { level: 'live', word: 'Live', note: 'no person', banner: '' };
   const loss = now.loss ?? null;
   if (now.isLosing && loss !== null) {
     return { level: 'losing', word: `Losing data ${lossText(loss)}`, note: 'lost or incomplete in 10 s', banner: '' };

@@ -5,6 +5,14 @@
 #include "core/system/clocks.h"
 
 namespace kinescope::app {
+namespace {
+
+double LongestGapSecs() {
+  static const double secs = loads::MotionFilter::Settings().longest_gap_secs;
+  return secs;
+}
+
+}  // namespace
 
 void SampleSmoother::OnCharacter(const Character& character) {
   waiting_.push_back({character, false});
@@ -21,7 +29,15 @@ void SampleSmoother::OnSurroundings(const RecordedSurroundings& all) {
   PassOn();
 }
 
+// People who have left keep nothing waiting.
 void SampleSmoother::OnMoment(const SourceMoment& moment) {
+  for (auto& [character, person] : people_) {
+    if (!person.continues || Secs(moment.stamp_nanos - person.last_nanos) <= LongestGapSecs()) {
+      continue;
+    }
+    person.filter.End();
+    person.continues = false;
+  }
   waiting_.push_back({moment, false});
   PassOn();
 }
@@ -29,12 +45,11 @@ void SampleSmoother::OnMoment(const SourceMoment& moment) {
 // A repeated stamp has no motion of its own; a gap and a sample without motion end that before
 // them.
 void SampleSmoother::OnSample(const BodySample& sample) {
-  static const double longest_gap_secs = loads::MotionFilter::Settings().longest_gap_secs;
   Person& person = people_.try_emplace(sample.character, cutoff_hz_).first->second;
   const double step = Secs(sample.stamp_nanos - person.last_nanos);
   const bool is_repeated = person.continues && step == 0;
   const bool has_motion = !is_repeated && loads::WhatIsMissing(sample).empty();
-  if (person.continues && !is_repeated && (!has_motion || step < 0 || step > longest_gap_secs)) {
+  if (person.continues && !is_repeated && (!has_motion || step < 0 || step > LongestGapSecs())) {
     person.filter.End();
     person.continues = false;
   }

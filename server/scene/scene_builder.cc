@@ -185,6 +185,7 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   current_.counter = sample.counter;
   current_.time_code_millis = sample.time_code_millis;
   TakeTime(sample);
+  first_moment_ = sample.stamp_nanos - sample.time_code_millis * kNanosPerMilli;
   const auto first = std::find_if(people_.begin(), people_.end(),
                                   [](const auto& entry) { return entry.second.floor_z(); });
   current_.floor_z = *first->second.floor_z();
@@ -220,15 +221,23 @@ bool SceneBuilder::HasSurroundings() const {
 }
 
 void SceneBuilder::OnMoment(const SourceMoment& moment) {
-  if (!past_.empty()) return;
   const bool is_live = moment.arrival_nanos != 0;
   if (is_live && first_moment_ == 0 && !HasSurroundings()) return;
   if (first_moment_ == 0) first_moment_ = moment.stamp_nanos;
   current_.stamp_nanos = moment.stamp_nanos;
   current_.arrival_nanos = moment.arrival_nanos;
   current_.time_code_millis = (moment.stamp_nanos - first_moment_) / kNanosPerMilli;
-  current_.counter = current_.liveness == Liveness::kNoData ? 0 : current_.counter + 1;
-  Publish(Liveness::kNoPerson);
+  if (past_.empty()) {
+    current_.counter = current_.liveness == Liveness::kNoData ? 0 : current_.counter + 1;
+  } else {
+    rate_.Stop();
+    current_.rate_hz = 0;
+  }
+  const bool has_person = std::any_of(people_.begin(), people_.end(), [&](const auto& each) {
+    const PersonState* const state = each.second.state();
+    return state != nullptr && IsWithin(kGoneAfterNanos, MomentOf(state->sample));
+  });
+  Publish(has_person ? Liveness::kStale : Liveness::kNoPerson);
 }
 
 // Clouds may come thirty times a second, and change little.

@@ -20,7 +20,7 @@ void LivenessLog::OnState(const SceneState& state) {
   switch (state.liveness) {
     case Liveness::kNoData: spdlog::info("waiting for data from {}", state.source); break;
     case Liveness::kNoPerson:
-      spdlog::info("no person in {} yet: what else is there is shown", state.source);
+      spdlog::info("no person in {} now: what else is there is shown", state.source);
       break;
     case Liveness::kLive:
       spdlog::info("live: {} from {}", FirstPersonIn(state), state.source);

@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
@@ -54,6 +55,25 @@ struct Appearances {
     if (count < 2 || last_nanos <= first_nanos) return 0;
     return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_nanos - first_nanos);
   }
+};
+
+// Passes all on, and knows the time of the newest sample.
+class SampleWatch : public SampleSink {
+ public:
+  void SetSink(SampleSink* sink) { sink_ = sink; }
+  std::int64_t newest_nanos() const { return newest_nanos_; }
+
+  void OnCharacter(const Character& character) override { sink_->OnCharacter(character); }
+  void OnSample(const BodySample& sample) override {
+    newest_nanos_ = sample.stamp_nanos;
+    sink_->OnSample(sample);
+  }
+  void OnSurroundings(const RecordedSurroundings& all) override { sink_->OnSurroundings(all); }
+  void OnMoment(const SourceMoment& moment) override { sink_->OnMoment(moment); }
+
+ private:
+  SampleSink* sink_ = nullptr;
+  std::int64_t newest_nanos_ = 0;  // 0: there was none
 };
 
 class BagSource : public Source {
@@ -114,7 +134,9 @@ class BagSource : public Source {
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message, SampleSink& sink);
   void TakeLinkStates(const BagMessage& message, SampleSink& sink);
-  void PassMoment(std::int64_t now_nanos, SampleSink& sink);
+  void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos, SampleSink& sink);
+  /// Moments go on when no sample comes, if something else is shown.
+  void PassMomentWithoutPeople(std::int64_t now_nanos);
   State End();
 
   /// Why the bag has no person, and what to do about it.
@@ -130,9 +152,11 @@ class BagSource : public Source {
   xsens_mvn_ros_msgs::LinkStateArray link_states_;
   TransformPeople people_{0};
   MotionJoiner joiner_;
+  SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
   std::string world_;
   std::int64_t moment_nanos_ = 0;  // of the newest moment that was passed on; 0: none was
+  std::int64_t person_nanos_ = 0;  // when the message of the newest sample was recorded
   bool has_ended_ = false;
   SourceCounters counters_;
   double rate_hz_ = 0;
@@ -287,6 +311,8 @@ void BagSource::CheckEnding(const BagMessages& messages) const {
 
 Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) {
   if (has_ended_) return State::kEnded;
+  watch_.SetSink(&sink);
+  joiner_.SetSink(&watch_);
   const std::uint64_t samples_before = counters_.samples;
   const std::int64_t moment_before = moment_nanos_;
   BagMessage message;
@@ -294,12 +320,17 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
                   moment_nanos_ == moment_before;
        ++i) {
     if (!messages_.Next(message)) {
-      joiner_.SetSink(&sink);
       joiner_.Flush();
       return End();
     }
-    Take(message, sink);
-    if (!has_person_) PassMoment(message.recorded_nanos, sink);
+    Take(message, watch_);
+    if (!has_person_) {
+      PassMoment(message.recorded_nanos, message.recorded_nanos, watch_);
+    } else if (counters_.samples != samples_before) {
+      person_nanos_ = message.recorded_nanos;
+    } else {
+      PassMomentWithoutPeople(message.recorded_nanos);
+    }
   }
   return State::kMore;
 }
@@ -331,19 +362,27 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {
-    joiner_.SetSink(&sink);
     // Without people, with the moments.
     if (has_person_) surroundings_.Update(message.recorded_nanos, world_, name_, joiner_);
     people_.Take(message_, {message.recorded_nanos, 0}, counters_, joiner_);
   }
 }
 
-void BagSource::PassMoment(std::int64_t now_nanos, SampleSink& sink) {
+void BagSource::PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos, SampleSink& sink) {
   if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kPlaceEveryNanos) return;
   moment_nanos_ = now_nanos;
   if (world_.empty()) world_ = surroundings_.FirstFrame();
   surroundings_.Update(now_nanos, world_, name_, sink);
-  sink.OnMoment({now_nanos, 0});
+  sink.OnMoment({stamp_nanos, 0});
+}
+
+void BagSource::PassMomentWithoutPeople(std::int64_t now_nanos) {
+  constexpr std::int64_t kSilentNanos = 500 * kNanosPerMilli;  // as a live stream becomes stale
+  const std::int64_t since = now_nanos - person_nanos_;
+  if (needs_person_ || person_nanos_ == 0 || since <= kSilentNanos) return;
+  if (!surroundings_.HasSomething()) return;
+  joiner_.Flush();
+  PassMoment(now_nanos, watch_.newest_nanos() + since, watch_);
 }
 
 void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
@@ -353,7 +392,6 @@ void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
     return;
   }
   if (links_.empty()) {
-    joiner_.SetSink(&sink);
     joiner_.Take(link_states_, counters_);
     return;
   }

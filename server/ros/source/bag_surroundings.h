@@ -43,6 +43,10 @@ class BagSurroundings {
 
   /// The frame of the first thing that is shown; "": there is none yet.
   std::string FirstFrame() const { return store_.FirstFrame(); }
+  /// Whether there is a marker, an image or a robot, with or without a place.
+  bool HasSomething() const {
+    return !robots_.empty() || !FirstFrame().empty() || !images_.images().empty();
+  }
 
   /// Takes a message of such a connection. What is not used is counted by reason: the markers that
   /// Kinescope itself published, which a scene draws by itself, in `ignored`. @pre IsUsed()

@@ -90,7 +90,7 @@ test('the status names the expected source before the first sample', () => {
 
 test('the status is live without a person, if the source has something else to show', () => {
   const status = statusOf({ ...good, liveness: 'no person' });
-  assert.deepEqual([status.level, status.word, status.note, status.banner, status.isFresh], ['live', 'Live', 'no person yet', '', true]);
+  assert.deepEqual([status.level, status.word, status.note, status.banner, status.isFresh], ['live', 'Live', 'no person', '', true]);
   assert.equal(statusOf({ ...good, liveness: 'no person', ageMillis: 5000 }).level, 'stale');
 });
 

@@ -115,9 +115,32 @@ TEST(SceneBuilder, WithoutAPersonShowsWhatElseIsThere) {
   built.builder.OnSample(SampleOf("lift", 5));
   EXPECT_EQ(built.last().liveness, Liveness::kLive);
   EXPECT_TRUE(built.last().extent.isEmpty()) << "people are framed";
-  const std::size_t before = built.states.size();
-  built.builder.OnMoment(LiveMoment(6));
-  EXPECT_EQ(built.states.size(), before) << "samples make the time";
+}
+
+TEST(SceneBuilder, GoesOnWithWhatElseARecordingHasWhenPeopleHaveLeft) {
+  Built built;
+  built.builder.Start();
+  BodySample sample = SampleOf("lift", 5);
+  sample.arrival_nanos = 0;
+  sample.time_code_millis = 7000;
+  built.builder.OnSample(sample);
+  built.builder.OnSurroundings({{}, {ArmAt({3, 0, 0})}, {}});
+  built.builder.OnMoment({sample.stamp_nanos + 600'000'000, 0});
+  EXPECT_EQ(built.last().liveness, Liveness::kStale);
+  EXPECT_EQ(built.last().people.size(), 1u) << "where they were last";
+  EXPECT_EQ(built.last().counter, sample.counter);
+  built.builder.OnMoment({sample.stamp_nanos + 1'100'000'000, 0});
+  EXPECT_EQ(built.last().liveness, Liveness::kNoPerson);
+  EXPECT_EQ(built.last().rate_hz, 0);
+  EXPECT_TRUE(built.last().people.empty());
+  EXPECT_EQ(built.last().robots.size(), 1u);
+  EXPECT_EQ(built.last().time_code_millis, 8100) << "as those of the samples";
+  EXPECT_TRUE(built.last().extent.isEmpty()) << "the camera stays where it was";
+  sample.stamp_nanos += 2'000'000'000;
+  sample.time_code_millis = 9000;
+  built.builder.OnSample(sample);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+  EXPECT_EQ(built.last().people.size(), 1u);
 }
 
 TEST(SceneBuilder, HasTheMomentsOfARecordingFromItsBeginning) {

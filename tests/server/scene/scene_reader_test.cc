@@ -94,7 +94,20 @@ TEST(SceneReader, NamesTheNearestSchemeAndMotion) {
 
 TEST(SceneReader, NamesTheErrorInASourceOfAKnownKind) {
   EXPECT_THAT(SceneReaderError("demo:fly"), AllOf(HasSubstr("fly"), HasSubstr("lift")));
-  EXPECT_THAT(SceneReaderError("tcp:/x"), AllOf(HasSubstr("tcp:/x"), HasSubstr("tcp://")));
+}
+
+TEST(SceneReader, RefusesALiveSourceByItsName) {
+  for (const auto& [url, how] : {std::pair<std::string, std::string>{"ros:", "rosbag record"},
+                                 {"udp://", "kinescope record"},
+                                 {"tcp://lab:9763", "kinescope record"}}) {
+    try {
+      const SceneReader reader(url, {});
+      ADD_FAILURE() << url;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("'" + url + "': this command cannot read a live"),
+                                      HasSubstr(how)));
+    }
+  }
 }
 
 }  // namespace

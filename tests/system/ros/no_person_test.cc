@@ -1,5 +1,6 @@
 // A graph of robots alone, and its bag: seen by a server and in rendered pictures, with a real
 // master, until a person comes.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "render/image/png_file.h"
 #include "tests/server/http/test_client.h"
@@ -143,6 +145,52 @@ TEST_F(WithoutAPerson, ABagIsDrawnAndPlayed) {
     const auto state = Fetch(port, "/api/v1/state").json();
     return state["liveness"] == "no person" && state["time_code_millis"] > 2500;
   })) << "in the second round";
+}
+
+TEST_F(WithoutAPerson, ABagGoesOnWhenThePersonHasLeft) {
+  std::vector<tf2_msgs::TFMessage> frames;
+  {
+    const boost::function<void(const tf2_msgs::TFMessage&)> take =
+        [&](const tf2_msgs::TFMessage& message) { frames.push_back(message); };
+    const ros::Subscriber subscriber = node_->subscribe<tf2_msgs::TFMessage>("/tf", 100, take);
+    const auto human = Start("bridge demo:walk --ros required");
+    ASSERT_TRUE(Spin([&] { return frames.size() >= 60; }));
+  }
+  const std::string path = folder_ / "left.bag";
+  const ros::Time begin = frames.front().transforms.front().header.stamp,
+                  end = frames.back().transforms.front().header.stamp;
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    ros::Time now;
+    for (const tf2_msgs::TFMessage& each : frames) {
+      now = each.transforms.front().header.stamp;
+      bag.write("/tf", now, each);
+    }
+    for (int i = 0; i < 30; ++i) {
+      now += ros::Duration(0.1);
+      Marker ball = MagentaBall(now);
+      ball.header.frame_id = "world";
+      bag.write("/goal", now, ball);
+    }
+  }
+  const std::string png = folder_ / "left.png";
+  const ProgramResult drawn = RunProgram({testing::KinescopePath(), "render", path, "--time=3",
+                                          "--marker_topics=/goal", "--out", png});
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_GT(Magenta(png), 0.0005);
+  const double secs = (end - begin).toSec();
+  const ProgramResult stale =
+      RunProgram({testing::KinescopePath(), "render", path, "--marker_topics=/goal",
+                  fmt::format("--time={:.3f}", secs + 0.75), "--overlay_layer=pdf", "--out",
+                  folder_ / "stale.png"});
+  ASSERT_EQ(stale.exit_code, 0) << stale.err;
+  EXPECT_THAT(RunProgram({"/usr/bin/pdftotext", folder_ / "stale.pdf", "-"}).out,
+              HasSubstr(fmt::format("STALE – last sample 00:00:{:06.3f}", secs)));
+  const ProgramResult filmed =
+      RunProgram({testing::KinescopePath(), "render", path, "--marker_topics=/goal", "--fps=10",
+                  "--size=320x180", "--out", folder_ / "left.mp4"});
+  EXPECT_EQ(filmed.exit_code, 0) << filmed.err;
+  EXPECT_GE(std::stoi(filmed.out.substr(filmed.out.find(": ") + 2)), 30) << filmed.out;
 }
 
 }  // namespace

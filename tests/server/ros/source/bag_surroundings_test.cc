@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "server/ros/link_states.h"
 #include "server/ros/markers.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/transforms.h"
@@ -262,6 +263,76 @@ TEST_F(BagWithoutPeople, IsRefusedWhereAPersonIsNeededOrNothingIsShown) {
 
 // The ring goes with the link that its joint states move: TF has no frame of it. They are also
 // those of a topic that the robot does not listen to.
+// What is shown when, in seconds after the first sample.
+struct Times : SampleSink {
+  void OnCharacter(const Character&) override {}
+  void OnSample(const BodySample& sample) override { samples.push_back(At(sample.stamp_nanos)); }
+  void OnMoment(const SourceMoment& moment) override { moments.push_back(At(moment.stamp_nanos)); }
+  double At(std::int64_t nanos) {
+    if (samples.empty() && moments.empty()) first = nanos;
+    return Secs(nanos - first);
+  }
+  std::vector<double> samples, moments;
+  std::int64_t first = 0;
+};
+
+class BagThatPeopleLeave : public BagSurroundingsTest {
+ protected:
+  // A person up to 0.5 s and from 3 s on, and a frame of a robot from 0 to 5 s. The clock of the
+  // person's stamps is an hour behind.
+  Times TimesOf(const GraphView& view, bool with_link_states = false) const {
+    const std::string path = folder_ / "left.bag";
+    {
+      rosbag::Bag bag(path, rosbag::bagmode::Write);
+      for (int n = 0; n <= 50; ++n) {
+        bag.write("/tf", TimeOf(kBegin + n * kStep + 1), FrameAt("base", 0.1 * n, kBegin));
+        if (n > 5 && n < 30) continue;
+        if (n > 35) continue;
+        tf2_msgs::TFMessage person = TransformsOfSample(n);
+        const ros::Duration hour(3600);
+        for (auto& transform : person.transforms) transform.header.stamp -= hour;
+        bag.write("/tf", TimeOf(kBegin + n * kStep), person);
+        if (!with_link_states) continue;
+        xsens_mvn_ros_msgs::LinkStateArray states;
+        FillLinkStates(testing::MakePerson(testing::MakeModel("skeleton"),
+                                           testing::Posture(0.05 * n), 0, kBegin + n * kStep),
+                       "world", states);
+        for (auto& state : states.states) state.header.stamp -= hour;
+        bag.write("/skeleton/link_states", TimeOf(kBegin + n * kStep + 2), states);
+      }
+    }
+    Times times;
+    const auto source = OpenBag(path, view);
+    while (source->Poll({}, times) == Source::State::kMore) {
+    }
+    return times;
+  }
+};
+
+TEST_F(BagThatPeopleLeave, GoesOnWithWhatElseIsShown) {
+  GraphView view;
+  view.needs_person = false;
+  view.robots = {Arm()};
+  for (const bool with_link_states : {false, true}) {
+    const Times times = TimesOf(view, with_link_states);
+    EXPECT_EQ(times.samples.size(), 12u);
+    ASSERT_EQ(times.moments.size(), 20u + 11u) << "of the gap and of the end";
+    EXPECT_NEAR(times.moments.front(), 1.0, 1e-6);
+    EXPECT_NEAR(times.moments[19], 2.9, 1e-6);
+    EXPECT_NEAR(times.moments[20], 4.0, 1e-6);
+    EXPECT_NEAR(times.moments.back(), 5.0, 1e-6);
+  }
+}
+
+TEST_F(BagThatPeopleLeave, EndsWithThemIfNothingElseIsShown) {
+  GraphView view;
+  view.needs_person = false;
+  EXPECT_TRUE(TimesOf(view).moments.empty());
+  view.needs_person = true;
+  view.robots = {Arm()};
+  EXPECT_TRUE(TimesOf(view).moments.empty()) << "tables have people alone";
+}
+
 TEST_F(BagSurroundingsTest, AreEffortsOfJointsOfRobots) {
   GraphView view;
   GraphRobot arm = Arm();
