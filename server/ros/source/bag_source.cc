@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
@@ -57,15 +58,17 @@ struct Appearances {
   }
 };
 
-// Passes all on, and knows the time of the newest sample.
+// Passes all on, and knows the times of the newest samples.
 class SampleWatch : public SampleSink {
  public:
   void SetSink(SampleSink* sink) { sink_ = sink; }
   std::int64_t newest_nanos() const { return newest_nanos_; }
+  std::int64_t step_nanos() const { return step_nanos_; }  // from the one before; 0: was none
 
   void OnCharacter(const Character& character) override { sink_->OnCharacter(character); }
   void OnSample(const BodySample& sample) override {
-    newest_nanos_ = sample.stamp_nanos;
+    const std::int64_t before = std::exchange(newest_nanos_, sample.stamp_nanos);
+    step_nanos_ = before == 0 ? 0 : newest_nanos_ - before;
     sink_->OnSample(sample);
   }
   void OnSurroundings(const RecordedSurroundings& all) override { sink_->OnSurroundings(all); }
@@ -74,6 +77,7 @@ class SampleWatch : public SampleSink {
  private:
   SampleSink* sink_ = nullptr;
   std::int64_t newest_nanos_ = 0;  // 0: there was none
+  std::int64_t step_nanos_ = 0;
 };
 
 class BagSource : public Source {
@@ -134,7 +138,7 @@ class BagSource : public Source {
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message, SampleSink& sink);
   void TakeLinkStates(const BagMessage& message, SampleSink& sink);
-  void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos, SampleSink& sink);
+  void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos);
   /// Moments go on when no sample comes, if something else is shown.
   void PassMomentWithoutPeople(std::int64_t now_nanos);
   State End();
@@ -325,7 +329,7 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
     }
     Take(message, watch_);
     if (!has_person_) {
-      PassMoment(message.recorded_nanos, message.recorded_nanos, watch_);
+      PassMoment(message.recorded_nanos, message.recorded_nanos);
     } else if (counters_.samples != samples_before) {
       person_nanos_ = message.recorded_nanos;
     } else {
@@ -368,21 +372,25 @@ void BagSource::Take(const BagMessage& message, SampleSink& sink) {
   }
 }
 
-void BagSource::PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos, SampleSink& sink) {
+void BagSource::PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos) {
   if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kPlaceEveryNanos) return;
   moment_nanos_ = now_nanos;
   if (world_.empty()) world_ = surroundings_.FirstFrame();
-  surroundings_.Update(now_nanos, world_, name_, sink);
-  sink.OnMoment({stamp_nanos, 0});
+  surroundings_.Update(now_nanos, world_, name_, watch_);
+  watch_.OnMoment({stamp_nanos, 0});
 }
 
 void BagSource::PassMomentWithoutPeople(std::int64_t now_nanos) {
   constexpr std::int64_t kSilentNanos = 500 * kNanosPerMilli;  // as a live stream becomes stale
+  constexpr double kSilentSteps = 3;                           // of slow recordings
   const std::int64_t since = now_nanos - person_nanos_;
   if (needs_person_ || person_nanos_ == 0 || since <= kSilentNanos) return;
+  const double step_secs =
+      watch_.step_nanos() != 0 || rate_hz_ <= 0 ? Secs(watch_.step_nanos()) : 1 / rate_hz_;
+  if (Secs(since) <= kSilentSteps * step_secs) return;
   if (!surroundings_.HasSomething()) return;
   joiner_.Flush();
-  PassMoment(now_nanos, watch_.newest_nanos() + since, watch_);
+  PassMoment(now_nanos, watch_.newest_nanos() + since);
 }
 
 void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {

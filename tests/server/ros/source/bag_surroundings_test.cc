@@ -324,6 +324,28 @@ TEST_F(BagThatPeopleLeave, GoesOnWithWhatElseIsShown) {
   }
 }
 
+TEST_F(BagThatPeopleLeave, WaitsForTheSamplesOfASlowRecording) {
+  const std::string path = folder_ / "slow.bag";
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    for (int n = 0; n <= 60; ++n) {  // one sample a second
+      const ros::Time now = TimeOf(kBegin + n * kStep);
+      if (n % 10 == 0 && n <= 20) bag.write("/tf", now, TransformsOfSample(n));
+      bag.write("/tf", now, FrameAt("base", n, kBegin));
+    }
+  }
+  GraphView view;
+  view.needs_person = false;
+  view.robots = {Arm()};
+  Times times;
+  const auto source = OpenBag(path, view);
+  while (source->Poll({}, times) == Source::State::kMore) {
+  }
+  EXPECT_EQ(times.samples.size(), 3u);
+  ASSERT_EQ(times.moments.size(), 10u);
+  EXPECT_NEAR(times.moments.front(), 5.1, 1e-6);
+}
+
 TEST_F(BagThatPeopleLeave, EndsWithThemIfNothingElseIsShown) {
   GraphView view;
   view.needs_person = false;
