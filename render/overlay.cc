@@ -21,11 +21,12 @@ constexpr Rgb kMarkColor{0.25, 0.45, 0.75};
 
 // A recording may go on without the people whose poses are old.
 std::int64_t LastSampleMillis(const SceneState& state) {
-  std::int64_t last = 0;
+  if (state.people.empty()) return state.time_code_millis;
+  std::int64_t last = state.people.front().sample.time_code_millis;
   for (const PersonState& person : state.people) {
     last = std::max(last, person.sample.time_code_millis);
   }
-  return state.people.empty() ? state.time_code_millis : last;
+  return last;
 }
 
 // The same page with other colours.

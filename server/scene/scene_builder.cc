@@ -146,6 +146,12 @@ bool SceneBuilder::IsWithin(std::int64_t nanos, std::int64_t moment) const {
   return std::abs(MomentOf(current_) - moment) <= nanos;
 }
 
+const PersonState* SceneBuilder::StateOfPresent(const PersonTracker& person) const {
+  const PersonState* const state = person.state();
+  const bool is_present = state != nullptr && IsWithin(kGoneAfterNanos, MomentOf(state->sample));
+  return is_present ? state : nullptr;
+}
+
 bool SceneBuilder::IsPlausible(const BodySample& sample) {
   auto why =
       places_.WhyNot(sample.character, sample.segments[urdf::kPelvis].position, MomentOf(sample));
@@ -185,7 +191,7 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   current_.counter = sample.counter;
   current_.time_code_millis = sample.time_code_millis;
   TakeTime(sample);
-  first_moment_ = sample.stamp_nanos - sample.time_code_millis * kNanosPerMilli;
+  time_origin_ = sample.stamp_nanos - sample.time_code_millis * kNanosPerMilli;
   const auto first = std::find_if(people_.begin(), people_.end(),
                                   [](const auto& entry) { return entry.second.floor_z(); });
   current_.floor_z = *first->second.floor_z();
@@ -222,11 +228,11 @@ bool SceneBuilder::HasSurroundings() const {
 
 void SceneBuilder::OnMoment(const SourceMoment& moment) {
   const bool is_live = moment.arrival_nanos != 0;
-  if (is_live && first_moment_ == 0 && !HasSurroundings()) return;
-  if (first_moment_ == 0) first_moment_ = moment.stamp_nanos;
+  if (is_live && time_origin_ == 0 && !HasSurroundings()) return;
+  if (time_origin_ == 0) time_origin_ = moment.stamp_nanos;
   current_.stamp_nanos = moment.stamp_nanos;
   current_.arrival_nanos = moment.arrival_nanos;
-  current_.time_code_millis = (moment.stamp_nanos - first_moment_) / kNanosPerMilli;
+  current_.time_code_millis = (moment.stamp_nanos - time_origin_) / kNanosPerMilli;
   if (past_.empty()) {
     current_.counter = current_.liveness == Liveness::kNoData ? 0 : current_.counter + 1;
   } else {
@@ -234,8 +240,7 @@ void SceneBuilder::OnMoment(const SourceMoment& moment) {
     current_.rate_hz = 0;
   }
   const bool has_person = std::any_of(people_.begin(), people_.end(), [&](const auto& each) {
-    const PersonState* const state = each.second.state();
-    return state != nullptr && IsWithin(kGoneAfterNanos, MomentOf(state->sample));
+    return StateOfPresent(each.second) != nullptr;
   });
   Publish(has_person ? Liveness::kStale : Liveness::kNoPerson);
 }
@@ -263,9 +268,8 @@ void SceneBuilder::Publish(Liveness liveness) {
   const auto scene = std::make_shared<SceneState>(current_);
   scene->people.reserve(people_.size());
   for (const auto& [id, person] : people_) {
-    const PersonState* const state = person.state();
+    const PersonState* const state = StateOfPresent(person);
     if (state == nullptr) continue;
-    if (!IsWithin(kGoneAfterNanos, MomentOf(state->sample))) continue;
     const auto left_out = left_out_.find(id);
     if (left_out != left_out_.end() && left_out->second.doubt.is_of_person) continue;
     scene->people.push_back(*state);

@@ -135,6 +135,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   bool IsPlausible(const BodySample& sample);
   void TakeTime(const BodySample& sample);
   bool IsWithin(std::int64_t nanos, std::int64_t moment) const;
+  /// Null: has no state yet, or sent nothing for so long that the person has left.
+  const PersonState* StateOfPresent(const PersonTracker& person) const;
   void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
@@ -176,7 +178,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   HeldHeading view_heading_;
   HeldExtent extent_;
   std::int64_t extent_nanos_ = 0;  // stamp of the state when it was looked at last
-  std::int64_t first_moment_ = 0;  // stamp of the first one without a person; 0: there was none
+  std::int64_t time_origin_ = 0;   // stamp at which the time code is 0; 0: not known yet
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
   RecordedSurroundings recorded_;

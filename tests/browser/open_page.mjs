@@ -156,6 +156,18 @@ export async function openPage(url, options = {}) {
   return { page, problems, requests, close: () => context.close() };
 }
 
+/** A page that is about to be opened keeps every text that its element `id` has, also for a moment, in window.words.
+ *  @param {any} page
+ *  @param {string} id */
+export const keepWords = (page, id) => page.addInitScript((wanted) => {
+  window.words = [];
+  addEventListener('DOMContentLoaded', () => {
+    const element = document.getElementById(wanted);
+    new MutationObserver(() => window.words.push(element.textContent))
+      .observe(element, { childList: true, characterData: true, subtree: true });
+  });
+}, id);
+
 /** Presses the tab `name`; a phone has some under "More".
  *  @param {any} page
  *  @param {string} name */

@@ -4,7 +4,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, pressedCameras, saveScreenshot, startFixture }
+import { chooseTab, closeBrowser, countPixels, DESKTOP, keepWords, openPage, PHONE, pixelsOf, pressedCameras, saveScreenshot, startFixture }
   from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -337,21 +337,14 @@ test('the server picture replaces the view without WebGL', async () => {
 test('an HTML answer of a proxy is reported, and the rest of the page works', async () => {
   const { page, problems, close } = await openLive({
     beforeLoad: async (fresh) => {
-      await fresh.addInitScript(() => {  // it is said for some seconds, while the page is loaded
-        window.said = [];
-        addEventListener('DOMContentLoaded', () => {
-          const banner = document.getElementById('banner');
-          new MutationObserver(() => window.said.push(banner.textContent))
-            .observe(banner, { childList: true, characterData: true, subtree: true });
-        });
-      });
+      await keepWords(fresh, 'banner');  // it is said for some seconds, while the page is loaded
       for (const route of ['diagnostics', 'cameras']) {
         await fresh.route(`**/api/v1/${route}`, (request) => request.fulfill({ contentType: 'text/html', body: '<h1>Hi</h1>' }));
       }
     },
   });
   await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
-  await page.waitForFunction(() => window.said.some((text) => /cameras.*text\/html/.test(text)), null, LONG);
+  await page.waitForFunction(() => window.words.some((text) => /cameras.*text\/html/.test(text)), null, LONG);
   await page.waitForFunction(() => /diagnostics.*text\/html/.test(document.getElementById('problems').textContent), null, LONG);
   assert.deepEqual(problems, []);
   await close();

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
 import { promisify } from 'node:util';
-import { chooseTab, closeBrowser, DESKTOP, endWithTests, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, endWithTests, keepWords, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -295,14 +295,7 @@ test('a recording is never called live: the page says where in it the viewer is,
   const file = join(folder, 'walk.mvnx');
   await promisify(execFile)(process.env.KINESCOPE, ['convert', 'demo:walk', '--seconds', '8', '--out', file]);
   const server = await serve(file);
-  const { page, problems, close } = await openPage(server.url, { beforeLoad: (fresh) => fresh.addInitScript(() => {
-    window.words = [];
-    addEventListener('DOMContentLoaded', () => {
-      const word = document.getElementById('status-word');
-      new MutationObserver(() => window.words.push(word.textContent))
-        .observe(word, { childList: true, characterData: true, subtree: true });
-    });
-  }) });
+  const { page, problems, close } = await openPage(server.url, { beforeLoad: (fresh) => keepWords(fresh, 'status-word') });
   await statusIs(page, /^Recording 0:08\.0 of 0:08$/);
   await page.waitForFunction(() => document.getElementById('play').dataset.act === 'play', null, LONG);
   // The loads of the last sample stay, although no more samples come.

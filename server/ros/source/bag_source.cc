@@ -58,7 +58,7 @@ struct Appearances {
   }
 };
 
-// Passes all on, and knows the times of the newest samples.
+// Passes everything on, and knows the times of the newest samples.
 class SampleWatch : public SampleSink {
  public:
   void SetSink(SampleSink* sink) { sink_ = sink; }
@@ -89,6 +89,7 @@ class BagSource : public Source {
         surroundings_(view),
         messages_(OpenBagFile(path),
                   [this](const BagConnection& connection) { return IsUsed(connection); }) {
+    joiner_.SetSink(&watch_);
     ReadNames();
     world_ = has_person_ ? FindWorld() : FindRoot();
   }
@@ -136,8 +137,8 @@ class BagSource : public Source {
   void CheckEnding(const BagMessages& messages) const;
   /// Why nothing of `message` can be used, or null; otherwise it is in message_.
   const char* Decode(const BagMessage& message);
-  void Take(const BagMessage& message, SampleSink& sink);
-  void TakeLinkStates(const BagMessage& message, SampleSink& sink);
+  void Take(const BagMessage& message);
+  void TakeLinkStates(const BagMessage& message);
   void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos);
   /// Moments go on when no sample comes, if something else is shown.
   void PassMomentWithoutPeople(std::int64_t now_nanos);
@@ -316,7 +317,6 @@ void BagSource::CheckEnding(const BagMessages& messages) const {
 Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) {
   if (has_ended_) return State::kEnded;
   watch_.SetSink(&sink);
-  joiner_.SetSink(&watch_);
   const std::uint64_t samples_before = counters_.samples;
   const std::int64_t moment_before = moment_nanos_;
   BagMessage message;
@@ -327,7 +327,7 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
       joiner_.Flush();
       return End();
     }
-    Take(message, watch_);
+    Take(message);
     if (!has_person_) {
       PassMoment(message.recorded_nanos, message.recorded_nanos);
     } else if (counters_.samples != samples_before) {
@@ -352,10 +352,10 @@ Source::State BagSource::End() {
   return State::kEnded;
 }
 
-void BagSource::Take(const BagMessage& message, SampleSink& sink) {
+void BagSource::Take(const BagMessage& message) {
   ++counters_.datagrams;
   counters_.bytes += message.size;
-  if (IsLinkStates(*message.connection)) return TakeLinkStates(message, sink);
+  if (IsLinkStates(*message.connection)) return TakeLinkStates(message);
   if (!HasTransforms(*message.connection)) return surroundings_.Take(message, counters_);
   if (const char* const defect = Decode(message)) {
     ++counters_.rejected[defect];
@@ -393,7 +393,7 @@ void BagSource::PassMomentWithoutPeople(std::int64_t now_nanos) {
   PassMoment(now_nanos, watch_.newest_nanos() + since);
 }
 
-void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
+void BagSource::TakeLinkStates(const BagMessage& message) {
   const bool is_whole = message.bytes.size() == message.size;
   if (!is_whole || !kinescope::ros_bridge::Decode(message.bytes, link_states_)) {
     ++counters_.rejected[kUnreadableLinkStates];
@@ -409,8 +409,8 @@ void BagSource::TakeLinkStates(const BagMessage& message, SampleSink& sink) {
     ++counters_.ignored["topic " + message.connection->topic];
     return;
   }
-  surroundings_.Update(message.recorded_nanos, world_, name_, sink);
-  person->second.Take(link_states_, {message.recorded_nanos, 0}, counters_, sink);
+  surroundings_.Update(message.recorded_nanos, world_, name_, watch_);
+  person->second.Take(link_states_, {message.recorded_nanos, 0}, counters_, watch_);
 }
 
 SourceCounters BagSource::counters() const {
