@@ -20,12 +20,13 @@ constexpr double kTimeCodeJumpNanos = 20e6;
 constexpr std::int64_t kMinStepNanos = 100'000;
 constexpr std::int64_t kWallSetBackNanos = kNanosPerSecond;
 
-// With fewer samples, the rounding of the time code makes the period too inaccurate.
-constexpr std::uint32_t kFramesForPeriod = 8;
-
-// Gain with which the smoothed clock follows the rounded one: an error of 1 ms moves stamps by 1/32
-// ms.
-constexpr double kGain = 1.0 / 32;
+// The smoothed clock is a line through the time codes, of all samples at first and then of about so
+// many.
+constexpr std::uint32_t kMemory = 256;
+constexpr std::uint32_t kSamplesForJump = 8;  // with fewer, rounding makes the line too inaccurate
+// Until then the line may be most of a millisecond early or late, and what was measured with it is
+// forgotten after that.
+constexpr std::uint32_t kSamplesToSettle = 32;
 
 }  // namespace
 
@@ -37,29 +38,28 @@ void ClockFit::Restart() {
 
 void ClockFit::StartAt(std::uint32_t counter, std::uint32_t time_code_millis) {
   Restart();
-  clock_ = SenderClock{counter, time_code_millis, counter, time_code_millis,
-                       time_code_millis * kMilliNanos};
+  const double nanos = time_code_millis * kMilliNanos;
+  clock_ = SenderClock{1, counter, time_code_millis, nanos, 0, false};
 }
 
+// The gains are those of the least-squares line through n samples when the newest one is added
+// (growing-memory filter: E. Brookner, Tracking and Kalman Filtering Made Easy, 1998, chapter 1).
 void ClockFit::Advance(std::uint32_t counter, std::uint32_t time_code_millis) {
-  const std::uint32_t frames = counter - clock_->counter;
-  const std::uint32_t frames_in_all = counter - clock_->first_counter;
+  const std::uint32_t frames = std::max(counter - clock_->counter, 1U);
   const double rounded = time_code_millis * kMilliNanos;
-  double smooth = rounded;
-  if (frames_in_all >= kFramesForPeriod) {
-    const double period = (rounded - clock_->first_millis * kMilliNanos) / frames_in_all;
-    const double predicted = clock_->smooth_nanos + frames * period;
-    if (std::abs(predicted - rounded) > kTimeCodeJumpNanos) {
-      return StartAt(counter, time_code_millis);
-    }
-    // Rounding is less than a millisecond; a larger difference is due to an inaccurate period.
-    smooth = std::clamp(predicted + kGain * (rounded - predicted), rounded - kMilliNanos,
-                        rounded + kMilliNanos);
-  }
-  if (time_code_millis < clock_->millis) return StartAt(counter, time_code_millis);
+  const double predicted = clock_->smooth_nanos + frames * clock_->period_nanos;
+  const double error = rounded - predicted;
+  const bool jumps = clock_->samples >= kSamplesForJump && std::abs(error) > kTimeCodeJumpNanos;
+  if (jumps || time_code_millis < clock_->millis) return StartAt(counter, time_code_millis);
+  clock_->samples = std::min(clock_->samples + 1, kMemory);
+  const double n = clock_->samples;
+  const double gain = 2 * (2 * n - 1) / (n * (n + 1)), period_gain = 6 / (n * (n + 1));
   clock_->counter = counter;
   clock_->millis = time_code_millis;
-  clock_->smooth_nanos = smooth;
+  // Rounding is less than a millisecond.
+  clock_->smooth_nanos =
+      std::clamp(predicted + gain * error, rounded - kMilliNanos, rounded + kMilliNanos);
+  clock_->period_nanos += period_gain * error / frames;
 }
 
 // The median of the slopes of all pairs (Theil and Sen): a few slow samples do not change it.
@@ -89,7 +89,11 @@ double ClockFit::SmallestOffset(double offset, std::int64_t now) {
     }
     return smallest;
   };
-  if (offset - expected() > kPauseNanos) {
+  const double delay = offset - expected();
+  const bool has_just_settled = !clock_->has_settled && clock_->samples >= kSamplesToSettle &&
+                                delay < kMilliNanos && drift_ == 0;
+  if (has_just_settled) clock_->has_settled = true;
+  if (has_just_settled || delay > kPauseNanos) {
     minima_.clear();
     drift_ = 0;
   }

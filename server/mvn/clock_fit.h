@@ -8,7 +8,8 @@
 /// slower than it was recorded drifts by far more; its drift is measured, and taken out first.
 ///
 /// Time codes are whole milliseconds, which would give a stream of 240 Hz a jitter of a quarter of
-/// its period. The sample counter is exact, so time codes are smoothed along it.
+/// its period. The sample counter is exact, so a line is fitted to the time codes along it. Stamps
+/// of the first 32 samples may be most of a millisecond early.
 ///
 /// A fit starts over when the time code jumps relative to the counter, and when the delay grows by
 /// more than half a second (the sender paused). If a sender's time code does not advance, the
@@ -34,12 +35,13 @@ class ClockFit {
   void Restart();
 
  private:
-  struct SenderClock {                // at the newest sample
-    std::uint32_t first_counter = 0;  // start of the fit
-    std::uint32_t first_millis = 0;
+  struct SenderClock {          // at the newest sample
+    std::uint32_t samples = 0;  // since the start of the fit; no more than its memory
     std::uint32_t counter = 0;
     std::uint32_t millis = 0;
-    double smooth_nanos = 0;  // time code without its rounding, ns
+    double smooth_nanos = 0;   // time code without its rounding, ns
+    double period_nanos = 0;   // of the counter, ns
+    bool has_settled = false;  // minima_ are those of a line of many samples
   };
 
   void StartAt(std::uint32_t counter, std::uint32_t time_code_millis);

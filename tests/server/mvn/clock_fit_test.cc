@@ -67,6 +67,26 @@ TEST_F(ClockFitTest, RemovesNetworkJitterFromTimeStamps) {
   for (const double error : errors) EXPECT_NEAR(error, 1e6, 0.8e6);
 }
 
+// The first time code may be rounded by nothing and those after it by half a millisecond: for the
+// first five seconds the stamps were that much too early.
+TEST_F(ClockFitTest, StampsAreSoonTheTimesOfArrivalOfAStreamWithoutDelay) {
+  for (const double rate : {24.0, 60.0, 100.0, 120.0, 240.0}) {
+    for (const double start_millis : {0.0, 0.3, 0.5, 0.99}) {
+      ClockFit fit;
+      double earliest = 0;
+      for (std::uint32_t counter = 0; counter < 8 * rate; ++counter) {
+        const Arrival arrival = ArriveAt(counter * 1e9 / rate);
+        const auto millis = static_cast<std::uint32_t>(counter * 1000 / rate + start_millis);
+        const std::int64_t stamp = fit.Stamp(counter, millis, arrival);
+        if (counter > 40) {
+          earliest = std::min(earliest, static_cast<double>(stamp - arrival.wall_nanos));
+        }
+      }
+      EXPECT_GT(earliest, -0.08e6) << rate << " Hz, first time code rounded by " << start_millis;
+    }
+  }
+}
+
 TEST_F(ClockFitTest, FollowsASenderWhoseClockDrifts) {
   constexpr double kDrift = 100e-6;
   double error = 0;
