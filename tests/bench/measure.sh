@@ -32,7 +32,7 @@ start_server() {  # [options]
   children+=("$server")
   until grep -q 'page at' "$work/server.log"; do kill -0 "$server"; done
 }
-start_server
+start_server --stamps arrival  # latency counts from there; fitted stamps are earlier by the jitter of the sender
 measure_viewers() {  # VIEWERS [pictures] [stalled=N] [back=N]
   local before viewers=$1; shift; before=$(cpu_ticks "$server")
   echo "$viewers viewer(s) $*: $("$build/tests/bench/page_viewers" "$http_port" "$viewers" 10 "$@" | paste -sd';')" \

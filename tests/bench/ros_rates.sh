@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures how soon and how completely a ROS subscriber has the samples of a suit, at the rates and with the numbers of
-# people that suits have, for README.md in this folder. Usage: tests/bench/ros_rates.sh [BUILD] [SECONDS]
+# people that suits have, for README.md in this folder. Stamps are receive times: fitted ones are earlier by the jitter of
+# the sender. Usage: tests/bench/ros_rates.sh [BUILD] [SECONDS]
 # BUILD: a build folder with the benchmark programs, default build/dev. Takes about two minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -19,7 +20,7 @@ kill "$bare"; wait "$bare" 2>/dev/null || true
 for rate in 60 120 240; do
   for people in 1 4; do
     udp=udp://127.0.0.1:$(port_of)
-    "$kinescope" bridge "$udp" --ros required 2>"$work/bridge.log" & bridge=$!
+    "$kinescope" bridge "$udp" --ros required --stamps arrival 2>"$work/bridge.log" & bridge=$!
     children+=("$bridge")
     until grep -q 'answers' "$work/bridge.log"; do kill -0 "$bridge"; done
     "$kinescope" stream demo:walk --characters "$people" --rate_hz "$rate" --to "$udp" 2>/dev/null & suit=$!
