@@ -17,7 +17,7 @@ bool Overlap(const Rect& a, const Rect& b) {
 
 // Around where it would like to be, nearest first; above before below, so that what stands on the
 // floor stays free.
-constexpr std::array<std::array<double, 2>, 8> kDirections = {
+constexpr std::array<std::array<double, 2>, 8> kLabelDirections = {
     {{0, -1}, {0, 1}, {1, 0}, {-1, 0}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}}};
 constexpr int kRings = 8;
 
@@ -37,7 +37,7 @@ std::optional<Rect> FindRoom(const LabelBox& box, const std::vector<Rect>& taken
   };
   if (auto room = at(box.x, box.y)) return room;
   for (int ring = 1; ring <= kRings && box.may_move; ++ring) {
-    for (const auto& direction : kDirections) {
+    for (const auto& direction : kLabelDirections) {
       // Sideways half a label at a time, up and down a line.
       if (auto room = at(box.x + direction[0] * ring * 0.5 * box.width,
                          box.y + direction[1] * ring * box.height)) {

@@ -27,7 +27,7 @@ ProgressForm FormHere() {
   return is_seen ? form : ProgressForm::kOff;
 }
 
-double Rounded(double value) { return std::round(value * 1e3) / 1e3; }
+double Thousandths(double value) { return std::round(value * 1e3) / 1e3; }
 
 }  // namespace
 
@@ -84,10 +84,10 @@ void Progress::PrintJson() const {
   const double spent = secs();
   nlohmann::ordered_json line = {{"progress", what_.substr(0, what_.find_last_not_of(':') + 1)},
                                  {"done", done_},
-                                 {"seconds", Rounded(spent)}};
+                                 {"seconds", Thousandths(spent)}};
   if (total_ > 0) {
     line["total"] = total_;
-    line["seconds_left"] = Rounded(spent / done_ * (total_ - done_));
+    line["seconds_left"] = Thousandths(spent / done_ * (total_ - done_));
   }
   const std::string text = JsonText(line) + '\n';
   std::fwrite(text.data(), 1, text.size(), stderr);

@@ -30,10 +30,10 @@ using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
-constexpr double kDarkest = 48.0 / 255;  // RViz's own background
-constexpr double kLeastAhead = 0.1;      // m, from a camera to its target
-constexpr double kFarthest = 1000;       // m, of a camera
-constexpr double kNearest = 0.05;        // m, a clip distance that cuts nothing off
+constexpr double kDarkest = 48.0 / 255;   // RViz's own background
+constexpr double kLeastAhead = 0.1;       // m, from a camera to its target
+constexpr double kFarthestCamera = 1000;  // m, of a camera
+constexpr double kNearest = 0.05;         // m, a clip distance that cuts nothing off
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -166,7 +166,7 @@ class RvizReader {
     }
     NameOffset(display, called, "the floor is the scene's");
     const auto differs = [&](const char* property, double usual) {
-      return rviz::NumberOf(display, property, usual, 0, kFarthest) != usual;
+      return rviz::NumberOf(display, property, usual, 0, kFarthestCamera) != usual;
     };
     if (differs("Cell Size", 1) || differs("Plane Cell Count", 10) ||
         differs("Normal Cell Count", 0)) {
@@ -180,7 +180,7 @@ class RvizReader {
     const YAML::Node offset = Member(display, "Offset");
     if (!offset.IsDefined() || !offset.IsMap()) return;
     for (const char* const axis : {"X", "Y", "Z"}) {
-      if (rviz::NumberOf(offset, axis, 0, -kFarthest, kFarthest) == 0) continue;
+      if (rviz::NumberOf(offset, axis, 0, -kFarthestCamera, kFarthestCamera) == 0) continue;
       return Remark(display, called + ": Offset is not taken: " + otherwise);
     }
   }
@@ -464,7 +464,7 @@ class RvizReader {
     RefuseOther(place, TextOf(current, "Class", ""));
     const rviz::View view = rviz::ViewOf(current, height_px_);
     if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
-    if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, kFarthest) > kNearest) {
+    if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, kFarthestCamera) > kNearest) {
       Remark(place, "Near Clip Distance is not taken: what is nearer is drawn, too");
     }
     const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
@@ -479,9 +479,9 @@ class RvizReader {
     if (kind == "rviz/FrameAligned") picture_.target.turn = ":pose";
     const render::Camera& camera = view.camera;
     if (std::max(camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff()) >
-        kFarthest) {
-      Remark(place,
-             fmt::format("the camera is more than {} m away; ours stays where it is", kFarthest));
+        kFarthestCamera) {
+      Remark(place, fmt::format("the camera is more than {} m away; ours stays where it is",
+                                kFarthestCamera));
       return;
     }
     SetCamera(camera, LineOf(place));

@@ -119,11 +119,11 @@ PersonTracker& SceneBuilder::TrackerOf(int id) {
 
 // People come and go; what each of them needs is given back.
 void SceneBuilder::ForgetThoseGone() {
-  constexpr std::int64_t kForgetAfter = 60 * kNanosPerSecond;
+  constexpr std::int64_t kForgetAfterNanos = 60 * kNanosPerSecond;
   for (auto person = people_.begin(); person != people_.end();) {
     const PersonState* const state = person->second.state();
     const bool is_gone =
-        state != nullptr && MomentOf(current_) - MomentOf(state->sample) > kForgetAfter;
+        state != nullptr && MomentOf(current_) - MomentOf(state->sample) > kForgetAfterNanos;
     if (!is_gone) {
       ++person;
       continue;

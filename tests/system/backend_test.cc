@@ -19,6 +19,7 @@
 #include "render/image/png_file.h"
 #include "server/picture/backend_probe.h"
 #include "server/picture/child_process.h"
+#include "tests/patience.h"
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/http/test_client.h"
@@ -35,12 +36,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::Kinescope;
+using testing::kPatience;
 using testing::ProgramResult;
 using testing::RestOfLine;
 using testing::RunProgram;
 using testing::TempFolder;
-
-constexpr std::chrono::seconds kPatience(60);  // only a failure takes so long
 
 ProgramResult Picture(const fs::path& out, const std::string& backend,
                       const std::vector<std::string>& environment = {}) {

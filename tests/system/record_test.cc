@@ -19,6 +19,7 @@
 #include "server/mvn/open.h"
 #include "server/subject/motions.h"
 #include "server/subject/subject.h"
+#include "tests/patience.h"
 #include "tests/process.h"
 #include "tests/server/mvn/file/datagram_sink.h"
 #include "tests/system/kinescope_path.h"
@@ -36,12 +37,11 @@ using mvn::testing::ReadToEnd;
 using std::chrono::steady_clock;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::kPatience;
 using testing::Process;
 using testing::ProgramResult;
 using testing::RunProgram;
 using testing::TempFolder;
-
-constexpr std::chrono::seconds kPatience(60);  // only a failure takes so long
 
 // All datagrams of one sample of `people` people who lift a box.
 std::vector<std::string> SampleOf(std::uint32_t counter, int people) {

@@ -15,6 +15,7 @@
 #include "server/mvn/encode.h"
 #include "server/mvn/open.h"
 #include "server/subject/subject.h"
+#include "tests/patience.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
@@ -29,14 +30,13 @@ using mvn::Header;
 using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kPatience;
 using testing::Process;
 using testing::ProgramResult;
 using testing::SharedData;
 using testing::TempFolder;
 
 using Arguments = std::vector<std::string>;
-
-constexpr std::chrono::seconds kPatience(60);  // only a failure takes so long
 
 ProgramResult Stream(Arguments arguments) {
   arguments.insert(arguments.begin(), "stream");

@@ -85,7 +85,7 @@ std::int64_t MillisFrom(const std::string& text) {
   return ::timegm(&parts) * std::int64_t{1000} + std::strtol(rest, nullptr, 10);
 }
 
-double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
+double TenThousandths(double value) { return std::round(value * 1e4) / 1e4; }
 
 std::string HostName() {
   std::array<char, 256> name{};
@@ -123,8 +123,8 @@ std::string ToLine(const JobResult& result) {
   if (!result.reason.empty()) line["reason"] = result.reason;
   line["command"] = result.command;
   if (!result.labels.empty()) line["labels"] = result.labels;
-  line["seconds"] = Rounded(result.secs);
-  line["cpu_seconds"] = Rounded(result.cpu_secs);
+  line["seconds"] = TenThousandths(result.secs);
+  line["cpu_seconds"] = TenThousandths(result.cpu_secs);
   line["peak_memory_bytes"] = result.peak_memory_bytes;
   line["started"] = UtcText(result.started_millis);
   line["host"] = result.host;

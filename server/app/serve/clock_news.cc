@@ -31,7 +31,7 @@ std::string Time(std::int64_t nanos) {
 }
 
 // Rounded, so that a value that does not change gives the same text.
-double Rounded(double millis) { return std::round(millis * 10) / 10; }
+double Tenths(double millis) { return std::round(millis * 10) / 10; }
 
 bool IsFar(std::int64_t nanos) { return std::abs(nanos) >= NodeClock::kFarNanos; }
 
@@ -98,7 +98,7 @@ std::string ClockWarning(const NodeClock& clock) {
 json ClockJson(const NodeClock& clock) {
   const auto delay = DelayOf(clock);
   const auto of = [](bool is_known, double millis) {
-    return is_known ? json(Rounded(millis)) : json(nullptr);
+    return is_known ? json(Tenths(millis)) : json(nullptr);
   };
   const auto offset = clock.offset.value_or(NodeClock::Offset{});
   return {{"node", clock.node},
@@ -106,10 +106,10 @@ json ClockJson(const NodeClock& clock) {
           {"uncertainty_ms", of(clock.offset.has_value(), Millis(offset.uncertainty_nanos))},
           {"delay_ms", of(delay.has_value(), delay.value_or(Delay{}).least_millis)},
           {"most_delay_ms", of(delay.has_value(), delay.value_or(Delay{}).most_millis)},
-          {"lag_ms", Rounded(Millis(clock.least_lag_nanos))},
-          {"most_lag_ms", Rounded(Millis(clock.most_lag_nanos))},
-          {"shift_ms", Rounded(Millis(clock.shift_nanos))},
-          {"excess_ms", Rounded(Millis(clock.excess_nanos))},
+          {"lag_ms", Tenths(Millis(clock.least_lag_nanos))},
+          {"most_lag_ms", Tenths(Millis(clock.most_lag_nanos))},
+          {"shift_ms", Tenths(Millis(clock.shift_nanos))},
+          {"excess_ms", Tenths(Millis(clock.excess_nanos))},
           {"warning", ClockWarning(clock)}};
 }
 

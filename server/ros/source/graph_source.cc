@@ -64,9 +64,9 @@ std::vector<std::string> TopicsBeside(const std::string& topic) {
 }
 
 // Passes samples on with stamps of the wall clock, which never go back.
-class InWallTime : public SampleSink {
+class SamplesInWallTime : public SampleSink {
  public:
-  InWallTime(const RosClock& clock, std::map<int, std::int64_t>& newest, SampleSink& sink)
+  SamplesInWallTime(const RosClock& clock, std::map<int, std::int64_t>& newest, SampleSink& sink)
       : clock_(clock), newest_(newest), sink_(sink) {}
 
   void OnCharacter(const Character& character) override { sink_.OnCharacter(character); }
@@ -234,7 +234,7 @@ class GraphSource : public Source {
       ++counters_.ignored["message before there was a time on /clock"];
       return;
     }
-    InWallTime sink(clock_, newest_, *sink_);
+    SamplesInWallTime sink(clock_, newest_, *sink_);
     take(sink);
   }
 

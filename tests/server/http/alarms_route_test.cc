@@ -19,8 +19,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr char kToken[] = "0perator-of-the-lab", kViewerToken[] = "v1ewer-of-the-lab";
-
 class AlarmsRouteTest : public ::testing::Test {
  protected:
   AlarmsRouteTest() {
@@ -32,7 +30,7 @@ class AlarmsRouteTest : public ::testing::Test {
   Answer Ask(const std::string& method, const std::string& target, const std::string& token,
              std::optional<std::string> body = {}) {
     Router::Site site;
-    site.tokens = {kToken, kViewerToken};
+    site.tokens = {kOperatorToken, kViewerToken};
     site.states = &states_;
     site.alarms = has_alarms_ ? &alarms_ : nullptr;
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
@@ -45,7 +43,7 @@ class AlarmsRouteTest : public ::testing::Test {
     request.body = std::move(body);
     return Router(std::move(site)).Route(request);
   }
-  Answer Acknowledge(const std::string& body, const std::string& token = kToken) {
+  Answer Acknowledge(const std::string& body, const std::string& token = kOperatorToken) {
     return Ask("POST", "/api/v1/acknowledge", token, body);
   }
 
@@ -91,7 +89,7 @@ TEST_F(AlarmsRouteTest, RejectsViewersAndWhatIsNoAcknowledgement) {
 
 TEST_F(AlarmsRouteTest, SaysSoIfNothingIsWatched) {
   has_alarms_ = false;
-  EXPECT_EQ(Ask("GET", "/api/v1/alarms", kToken).status, 503);
+  EXPECT_EQ(Ask("GET", "/api/v1/alarms", kOperatorToken).status, 503);
   EXPECT_EQ(Acknowledge(R"({"id": 1})").status, 503);
 }
 

@@ -11,6 +11,7 @@
 #include "server/http/control_orders.h"
 #include "server/http/router.h"
 #include "tests/server/http/fake_controls.h"
+#include "tests/server/http/test_scene.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -23,14 +24,12 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::Pair;
 
-constexpr char kOperator[] = "0perator-of-the-lab", kViewer[] = "v1ewer-of-the-lab";
-
 class ControlsRouteTest : public ::testing::Test {
  protected:
   Answer Ask(const std::string& method, const std::string& target, const std::string& body = "",
-             const std::string& token = kOperator) {
+             const std::string& token = kOperatorToken) {
     Router::Site site;
-    site.tokens = {kOperator, kViewer};
+    site.tokens = {kOperatorToken, kViewerToken};
     site.states = &states_;
     site.controls = has_controls_ ? &controls_ : nullptr;
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
@@ -118,8 +117,8 @@ TEST_F(ControlsRouteTest, RejectOrdersThatAreNotWholeOrSayTooMuch) {
 
 TEST_F(ControlsRouteTest, ShowViewersTheFilesWithoutTheirFolder) {
   EXPECT_THAT(Ask("GET", "/api/v1/files").body, HasSubstr("/lab"));
-  EXPECT_THAT(Ask("GET", "/api/v1/files", "", kViewer).body, Not(HasSubstr("/lab")));
-  EXPECT_EQ(Ask("GET", "/api/v1/controls", "", kViewer).status, 200);
+  EXPECT_THAT(Ask("GET", "/api/v1/files", "", kViewerToken).body, Not(HasSubstr("/lab")));
+  EXPECT_EQ(Ask("GET", "/api/v1/controls", "", kViewerToken).status, 200);
 }
 
 TEST_F(ControlsRouteTest, SendFilesToOperatorsAsDownloads) {
@@ -129,7 +128,7 @@ TEST_F(ControlsRouteTest, SendFilesToOperatorsAsDownloads) {
   EXPECT_EQ(answer.content_type, "video/mp4");
   EXPECT_THAT(answer.headers,
               Contains(Pair("Content-Disposition", "attachment; filename=\"S07_lift_001.mp4\"")));
-  const Answer refused = Ask("GET", "/api/v1/file/S07_lift_001.mp4", "", kViewer);
+  const Answer refused = Ask("GET", "/api/v1/file/S07_lift_001.mp4", "", kViewerToken);
   EXPECT_EQ(refused.status, 403);
   EXPECT_FALSE(refused.file);
   EXPECT_EQ(Ask("GET", "/api/v1/file/other.mp4").status, 404);

@@ -22,8 +22,6 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr char kToken[] = "0perator-of-the-lab";
-
 class MarksRouteTest : public ::testing::Test {
  protected:
   MarksRouteTest() {
@@ -39,16 +37,17 @@ class MarksRouteTest : public ::testing::Test {
 
   Answer Ask(Request request) {
     Router::Site site;
-    site.tokens = {kToken, "v1ewer-of-the-lab"};
+    site.tokens = {kOperatorToken, kViewerToken};
     site.states = &states_;
     site.history = has_history_ ? &history_ : nullptr;
     site.marks = &book_;
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
     request.host = "localhost:8080";
-    if (request.authorization.empty()) request.authorization = std::string("Bearer ") + kToken;
+    if (request.authorization.empty())
+      request.authorization = std::string("Bearer ") + kOperatorToken;
     return Router(std::move(site)).Route(request);
   }
-  Answer Get(const std::string& query = "", const std::string& token = kToken) {
+  Answer Get(const std::string& query = "", const std::string& token = kOperatorToken) {
     Request request;
     request.method = "GET";
     request.target = "/api/v1/marks" + query;
@@ -160,7 +159,7 @@ TEST_F(MarksRouteTest, ATextIsOneLineOfValidCharacters) {
 
 TEST_F(MarksRouteTest, ViewersReadMarksButNotTheFolder) {
   EXPECT_EQ(json::parse(Get().body)["file"], book_.file().string());
-  const json seen = json::parse(Get("", "v1ewer-of-the-lab").body);
+  const json seen = json::parse(Get("", kViewerToken).body);
   EXPECT_EQ(seen["names"], json::array({"lift", "lower"}));
   EXPECT_FALSE(seen.contains("file"));
 }

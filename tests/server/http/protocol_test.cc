@@ -47,7 +47,7 @@ class Reader {
   std::size_t offset_ = 0;
 };
 
-SceneState Scene(int people = 1) {
+SceneState SceneToSend(int people = 1) {
   return testing::MakeScene(41, 3.25, 5'000'000'000, testing::MakePersonModel(7), people);
 }
 
@@ -110,7 +110,7 @@ void ExpectPerson(Reader& in, const PersonState& person) {
 }
 
 TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
-  SceneState state = Scene(2);
+  SceneState state = SceneToSend(2);
   state.floor_z = -0.75;
   state.waited_nanos = 3'719'000'000;
   state.view_heading = -2.5;
@@ -143,12 +143,12 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
 }
 
 TEST(StateMessage, HasFingersAndPropsInTheOrderOfTheModel) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   PersonState& person = state.people[0];
   kinescope::testing::Wear(person);
   const Bytes bytes = EncodeState(state, {0, 1, {}});
   EXPECT_EQ(bytes[kStateHeaderBytes + 5], 23 + 40 + 2);
-  const Bytes bare = EncodeState(Scene(), {0, 1, {}});
+  const Bytes bare = EncodeState(SceneToSend(), {0, 1, {}});
   EXPECT_EQ(bytes.size(), bare.size() + 42 * kLinkBytes);
   const auto position_of = [&](std::size_t link) {
     const std::size_t at = kStateHeaderBytes + kPersonHeaderBytes + link * kLinkBytes;
@@ -162,7 +162,7 @@ TEST(StateMessage, HasFingersAndPropsInTheOrderOfTheModel) {
 }
 
 TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   const std::size_t people = EncodeState(state, {0, 1, {}}).size();
   const urdf::Pose pose{{1, -2, 0.5}, Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5)};
   state.objects = {{4, 0, "tool", pose, 5}, {-4, 22, "cart", pose, 5}};
@@ -182,7 +182,7 @@ TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
 }
 
 TEST(StateMessage, HasReferencePosesAfterTheObjects) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   const std::size_t without = EncodeState(state, {0, 1, {}}).size();
   Ghost ghost{state.people[0]};
   ghost.person.character = kFirstGhost;
@@ -199,7 +199,7 @@ TEST(StateMessage, HasReferencePosesAfterTheObjects) {
 }
 
 TEST(StateMessage, HasTheDrawnLinksOfRobotsThatMoveAtItsEnd) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   const std::size_t without = EncodeState(state, {0, 1, {}}).size();
   RobotState robot;
   auto model = std::make_shared<urdf::RobotModel>();
@@ -230,7 +230,7 @@ TEST(StateMessage, HasTheDrawnLinksOfRobotsThatMoveAtItsEnd) {
 }
 
 TEST(StateMessage, HasTheFrameThatTheOwnCameraGoesWithAtItsEnd) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   const std::size_t without = EncodeState(state, {0, 1, {}}).size();
   EXPECT_EQ(EncodeState(state, {0, 1, {}})[69], 0);
   state.camera_base = urdf::Pose{Eigen::Vector3d(1, -2, 0.5), Eigen::Quaterniond(0.6, 0, 0, 0.8)};
@@ -258,7 +258,7 @@ TEST(StateMessage, EndsWithTheExtentOfASceneWithoutPeople) {
 }
 
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {
-  EXPECT_LT(EncodeState(Scene(), {0, 1, {}}).size(), 1500u);
+  EXPECT_LT(EncodeState(SceneToSend(), {0, 1, {}}).size(), 1500u);
 }
 
 TEST(StateMessage, ConsistsOfItsHeaderWithoutPeople) {
@@ -266,16 +266,17 @@ TEST(StateMessage, ConsistsOfItsHeaderWithoutPeople) {
 }
 
 TEST(StateMessage, ContainsAtMost255People) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   state.people.resize(300, state.people.front());
   const Bytes bytes = EncodeState(state, {0, 1, {}});
   EXPECT_EQ(bytes[3], 255);
-  const std::size_t person_bytes = EncodeState(Scene(), {0, 1, {}}).size() - kStateHeaderBytes;
+  const std::size_t person_bytes =
+      EncodeState(SceneToSend(), {0, 1, {}}).size() - kStateHeaderBytes;
   EXPECT_EQ(bytes.size(), kStateHeaderBytes + 255 * person_bytes);
 }
 
 TEST(StateMessage, MarksMissingValues) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   state.people[0].com.reset();
   state.people[0].cop.reset();
   EXPECT_EQ(EncodeState(state, {0, 1, {}})[kStateHeaderBytes + 4] & 3, 0);
@@ -295,7 +296,7 @@ TEST(PictureMessage, ContainsTheNumberOfItsState) {
 }
 
 TEST(PastMessage, ContainsStatesAndTheTextsThatHaveChanged) {
-  SceneState state = Scene();
+  SceneState state = SceneToSend();
   PastEncoder encoder(9, {});
   encoder.Add(state, "one");
   state.number = 42;
@@ -307,7 +308,7 @@ TEST(PastMessage, ContainsStatesAndTheTextsThatHaveChanged) {
   const testing::PastMessage past(bytes);
   EXPECT_EQ(past.id, 9u);
   EXPECT_EQ(past.until_micros, 5'000'000);
-  EXPECT_EQ(past.Numbers(), (std::vector<std::uint64_t>{Scene().number, 42}));
+  EXPECT_EQ(past.Numbers(), (std::vector<std::uint64_t>{SceneToSend().number, 42}));
   EXPECT_EQ(past.states[0].details, "one");
   EXPECT_EQ(past.states[1].details, "");
   EXPECT_EQ(bytes.size(),

@@ -28,9 +28,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr char kOperatorToken[] = "0perator-of-the-lab";
-const std::string kViewerToken = TestServer::kViewerToken;
-
 std::string TokenOf(Role role) { return role == Role::kOperator ? kOperatorToken : kViewerToken; }
 
 class RoleOfRouteTest : public ::testing::Test {

@@ -15,6 +15,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tests/patience.h"
+
 namespace kinescope::http::testing {
 namespace {
 
@@ -23,9 +25,8 @@ namespace beast = boost::beast;
 namespace bhttp = boost::beast::http;
 namespace websocket = boost::beast::websocket;
 using asio::ip::tcp;
+using kinescope::testing::kPatience;
 using Error = boost::system::error_code;
-
-constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
 
 // Runs what was started on `io`, and nothing else, to its end.
 void Finish(asio::io_context& io, const bool& done, const char* what) {

@@ -21,6 +21,9 @@ std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision = 1,
 SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_nanos,
                      const std::shared_ptr<const PersonModel>& model, int people = 1);
 
+inline constexpr char kOperatorToken[] = "0perator-of-the-lab",
+                      kViewerToken[] = "v1ewer-of-the-lab";
+
 /// The names of render/camera/camera.h, with numbers like its own.
 std::vector<CameraView> MakeCameras();
 CameraFraming MakeFraming();

@@ -92,7 +92,6 @@ class FakeFeed final : public PictureFeed {
 };
 
 struct TestServer {
-  static constexpr char kViewerToken[] = "v1ewer-of-the-lab";  // of a server with a token
   explicit TestServer(const std::string& token = "", bool with_feed = true,
                       const std::string& mesh_folder = "", const PatienceLimits& limits = {},
                       const std::function<void(HttpConfig&)>& change = nullptr)

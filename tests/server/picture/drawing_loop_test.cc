@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tests/captured_log.h"
+#include "tests/patience.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/temp_folder.h"
 
@@ -20,12 +21,12 @@ namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
+using kinescope::testing::kPatience;
 using std::chrono::seconds;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr seconds kPatience{60};  // only a failure takes so long
 constexpr seconds kPeriod{1000};  // of live pictures; far beyond the time of this test
 constexpr char kHang[] = "the driver does not respond";
 

@@ -208,7 +208,7 @@ TEST(ViewOptions, ListTheFilesThatDetermineThePicture) {
   EXPECT_THAT(ViewOptions().camera.Files(), ::testing::IsEmpty());
 }
 
-SceneState SceneAt(double secs, double ratio) {
+SceneState SceneWithLoad(double secs, double ratio) {
   SceneState state = kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding);
   state.stamp_nanos = 1'000'000'000 + std::llround(1e9 * secs);
   kinescope::testing::LoadOf(state, urdf::jL5S1).shown_ratio = ratio;
@@ -218,9 +218,9 @@ SceneState SceneAt(double secs, double ratio) {
 TEST(RenderPlanner, PlotsTheWholeClipAfterAFirstPassOrTheNewestSeconds) {
   const auto options = testing::With<ViewOptions>({{"plot", "l5_s1"}});
   RenderPlanner prescanned(options), growing(options);
-  for (int k = 0; k <= 40; ++k) prescanned.Prescan(SceneAt(0.5 * k, 0.01 * k));
+  for (int k = 0; k <= 40; ++k) prescanned.Prescan(SceneWithLoad(0.5 * k, 0.01 * k));
   for (int k = 0; k <= 40; ++k) {
-    const SceneState scene = SceneAt(0.5 * k, 0.01 * k);
+    const SceneState scene = SceneWithLoad(0.5 * k, 0.01 * k);
     const RenderRequest whole = prescanned.Next(scene), newest = growing.Next(scene);
     ASSERT_TRUE(whole.spec.load_curves && newest.spec.load_curves && whole.spec.parts.plot);
     EXPECT_NEAR(whole.spec.plot_secs, 0.5 * k, 1e-9);

@@ -10,13 +10,14 @@
 
 #include "server/picture/picture_shapes.h"
 #include "server/picture/pinhole.h"
+#include "tests/patience.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
+using kinescope::testing::kPatience;
 
 std::shared_ptr<const SceneState> SceneAt(std::int64_t stamp_nanos) {
   auto scene = std::make_shared<SceneState>();

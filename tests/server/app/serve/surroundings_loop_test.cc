@@ -6,12 +6,13 @@
 #include <string>
 #include <thread>
 
+#include "tests/patience.h"
+
 namespace kinescope::app {
 namespace {
 
+using kinescope::testing::kPatience;
 using std::chrono::seconds;
-
-constexpr seconds kPatience{30};  // only a failure takes so long
 
 std::shared_ptr<const SceneState> With(std::uint64_t revision, const std::string& text) {
   auto marker = std::make_shared<SceneMarker>();

@@ -7,13 +7,13 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int64_t kEpoch =
+constexpr std::int64_t kWallEpoch =
     1'700'000'000 * kNanosPerSecond;  // wall clock when the monotonic one is 0
 
 // The time `secs` after the start; `set_by`: by how much the wall clock was set until then.
 Arrival At(double secs, std::int64_t set_by = 0) {
   const auto nanos = static_cast<std::int64_t>(secs * 1e9);
-  return {nanos, kEpoch + nanos + set_by};
+  return {nanos, kWallEpoch + nanos + set_by};
 }
 
 TEST(ArrivalClock, KeepsTheKernelsStampHoweverLongTheDatagramWaited) {
@@ -64,7 +64,8 @@ TEST(ArrivalClock, NeverGoesBackNorBeyondTheTimeOfReading) {
   clock.Read(At(10));
   EXPECT_EQ(clock.ArrivalOf(At(10).wall_nanos).monotonic_nanos, At(10).monotonic_nanos);
   clock.Read(At(11));
-  EXPECT_EQ(clock.ArrivalOf(kEpoch - 5 * kNanosPerSecond).monotonic_nanos, At(10).monotonic_nanos);
+  EXPECT_EQ(clock.ArrivalOf(kWallEpoch - 5 * kNanosPerSecond).monotonic_nanos,
+            At(10).monotonic_nanos);
   EXPECT_EQ(clock.ArrivalOf(At(500).wall_nanos).monotonic_nanos, At(11).monotonic_nanos);
   EXPECT_EQ(clock.ArrivalOf(At(10.5).wall_nanos).monotonic_nanos, At(11).monotonic_nanos);
 }
