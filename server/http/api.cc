@@ -461,6 +461,16 @@ std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, in
   return nullptr;
 }
 
+std::optional<std::uint64_t> LaterRevision(const SceneState* state, int character,
+                                           std::uint64_t revision) {
+  for (const auto& [person, ghost_opacity] : PeopleAndGhosts(state)) {
+    if (person.character == character && person.model->revision > revision) {
+      return person.model->revision;
+    }
+  }
+  return std::nullopt;
+}
+
 std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
                                             std::uint64_t revision, std::size_t n) {
   for (const auto& [person, ghost_opacity] : PeopleAndGhosts(state)) {

@@ -44,6 +44,11 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
                                                      std::uint64_t revision);
 
+/// The person's newest revision, if it is later: of a client that asks for what it was told before
+/// a change.
+std::optional<std::uint64_t> LaterRevision(const SceneState* state, int character,
+                                           std::uint64_t revision);
+
 /// The STL file for /api/v1/mesh/{person}/{revision}/{number}: the n-th mesh visual of that
 /// person's model, from memory. Null unless it is one of the model's own meshes and the revision is
 /// the current one.

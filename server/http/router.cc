@@ -110,6 +110,14 @@ Answer AnswerOfModel(const std::string& content, const char* type, const Request
   return answer;
 }
 
+// `address`: relative, since a proxy may have put a folder before ours.
+Answer AnswerOfLaterModel(std::string address, const Request& request) {
+  Answer answer = ErrorAnswer(307, "this model has been replaced by a later one");
+  const std::size_t query = std::min(request.target.find('?'), request.target.size());
+  answer.headers.emplace_back("Location", std::move(address) + request.target.substr(query));
+  return answer;
+}
+
 }  // namespace
 
 Answer JsonAnswer(std::string body) {
@@ -441,6 +449,9 @@ Answer Router::Mesh(const Request& request, Role /*role*/) const {
   if (!numbers) return Refuse(404, "unknown address", std::string("expected ") + kMeshPath);
   const auto [person, revision, n] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
+  if (const auto later = LaterRevision(state.get(), ToCharacter(person), revision)) {
+    return AnswerOfLaterModel("../" + std::to_string(*later) + "/" + std::to_string(n), request);
+  }
   const auto mesh = FindMesh(state.get(), ToCharacter(person), revision, n);
   if (!mesh || mesh->size() > kMaxMeshBytes) {
     return Refuse(404, "no such mesh", "the newest model does not contain this STL file");
@@ -464,6 +475,9 @@ Answer Router::Skin(const Request& request, Role /*role*/) const {
     error_mm = *number;
   }
   const std::shared_ptr<const SceneState> state = site_.states->Get();
+  if (const auto later = LaterRevision(state.get(), ToCharacter(person), revision)) {
+    return AnswerOfLaterModel(std::to_string(*later), request);
+  }
   const auto model = FindModelWithSkin(state.get(), ToCharacter(person), revision);
   if (!model) {
     return Refuse(404, "no such skin", "this is not the newest model, or it is made of parts");

@@ -82,8 +82,9 @@ class RoleOfRouteTest : public ::testing::Test {
 
   // The answer to a client that may use the route.
   static int StatusFor(const Router::RouteInfo& route) {
-    const bool is_model = route.path.find('{') != std::string::npos;  // of revision 0
-    return is_model ? 404 : route.path == Router::kWebSocketPath ? 426 : 200;
+    const auto has = [&](const char* part) { return route.path.find(part) != std::string::npos; };
+    if (has("{revision}")) return 307;  // of revision 0
+    return has("{") ? 404 : route.path == Router::kWebSocketPath ? 426 : 200;
   }
 
   kinescope::testing::TempFolder web_;

@@ -174,10 +174,25 @@ TEST_F(RouterTest, ServesTheSkinOfTheNewestModelUnlessItIsMadeOfParts) {
     EXPECT_THAT(ErrorIn(refused), HasSubstr("expected a whole number from 0 to 10"));
   }
   for (const char* target :
-       {"/api/v1/skin/0/7", "/api/v1/skin/1/8", "/api/v1/skin/18446744073709551615/8",
+       {"/api/v1/skin/0/9", "/api/v1/skin/1/8", "/api/v1/skin/18446744073709551615/8",
         "/api/v1/skin/0", "/api/v1/skin/0/8/0", "/api/v1/skin/a/8", "/api/v1/skin/0/-8"}) {
     EXPECT_EQ(Get(target).status, 404) << target;
   }
+}
+
+// A page that asks for what it was told before a change had an error in its console.
+TEST_F(RouterTest, SendsWhoAsksForAnEarlierModelToTheNewestOne) {
+  PublishPeople(2);
+  for (const auto& [target, address] :
+       std::map<std::string, std::string>{{"/api/v1/skin/0/6", "7"},
+                                          {"/api/v1/skin/1/1?error_mm=3", "7?error_mm=3"},
+                                          {"/api/v1/mesh/0/6/0", "../7/0"},
+                                          {"/api/v1/mesh/1/0/14?a=b", "../7/14?a=b"}}) {
+    const Answer answer = Get(target);
+    EXPECT_EQ(answer.status, 307) << target;
+    EXPECT_EQ(HeaderOf(answer, "Location"), address) << target;
+  }
+  EXPECT_EQ(Get("/api/v1/skin/0/6?error_mm=11").status, 400);
 }
 
 // A guessable folder for temporary files belongs to everybody.
@@ -286,7 +301,7 @@ TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
   EXPECT_EQ(Get("/api/v1/mesh/0/7/0").body, "solid pelvis");
   EXPECT_EQ(Get("/api/v1/mesh/1/7/0").body, "solid pelvis");
   for (const char* target :
-       {"/api/v1/mesh/2/7/0", "/api/v1/mesh/0/6/0", "/api/v1/mesh/0/8/0", "/api/v1/mesh/0/7/1",
+       {"/api/v1/mesh/2/7/0", "/api/v1/mesh/2/6/0", "/api/v1/mesh/0/8/0", "/api/v1/mesh/0/7/1",
         "/api/v1/mesh/0/7/9999", "/api/v1/mesh/18446744073709551615/7/0",
         "/api/v1/mesh/4294967296/7/0"}) {
     const Answer answer = Get(target);

@@ -173,7 +173,9 @@ TEST(HttpServer, ServesOnlyMeshesOfTheModel) {
   EXPECT_EQ(mesh.body, "solid pelvis");
   EXPECT_EQ(mesh.headers.at("content-type"), "model/stl");
   EXPECT_EQ(site.Get("/api/v1/mesh/0/7/1").status, 404) << "named, but not there";
-  EXPECT_EQ(site.Get("/api/v1/mesh/0/6/0").status, 404) << "an older revision";
+  const Response earlier = site.Get("/api/v1/mesh/0/6/0");
+  EXPECT_EQ(earlier.status, 307);
+  EXPECT_EQ(earlier.headers.at("location"), "../7/0");
 }
 
 TEST(HttpServer, AddsItsOwnPartToTheDiagnostics) {
