@@ -37,12 +37,19 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
 
 bool TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
   if (!IsGood(transform)) return false;
+  const auto newest = newest_.find(transform.child_frame_id);
+  const bool is_known = newest != newest_.end() && newest->second == transform.header.stamp;
+  if (is_known && !is_static) return true;
   if (buffer_.setTransform(transform, "/tf", is_static)) {
-    if (!is_static) too_old_in_a_row_ = 0;
+    if (is_static) return true;
+    too_old_in_a_row_ = 0;
+    ros::Time& taken = newest_[transform.child_frame_id];
+    taken = std::max(taken, transform.header.stamp);
     return true;
   }
   if (++too_old_in_a_row_ < kTooOldForAJump) return false;
   buffer_.clear();  // static ones stay
+  newest_.clear();
   too_old_in_a_row_ = 0;
   return buffer_.setTransform(transform, "/tf", is_static);
 }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
+#include <ros/time.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -45,6 +47,9 @@ class TfTree {
   bool Take(const geometry_msgs::TransformStamped& transform, bool is_static);
 
   tf2::BufferCore buffer_;
+  // By moving frame, the stamp last taken. Of a simulator that pauses it comes again and again: tf2
+  // would print a line each time, and refuse it as what is too old.
+  std::unordered_map<std::string, ros::Time> newest_;
   int too_old_in_a_row_ = 0;
 };
 

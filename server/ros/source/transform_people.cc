@@ -45,9 +45,17 @@ bool TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
   }
   touched_.clear();
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const PeopleFrames::Place place = frames_.PlaceOf(WithoutSlash(transform.child_frame_id));
+    if (place.person >= 0) touched_[place.person].set(static_cast<std::size_t>(place.slot));
+  }
+  for (const auto& [person, slots] : touched_) {
+    if (people_[static_cast<std::size_t>(person)].transforms.Begin(slots)) {
+      ++counters.rejected[kIncompleteTransforms];
+    }
+  }
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const int index = frames_.PlaceOf(WithoutSlash(transform.child_frame_id)).person;
     if (index < 0) continue;
-    touched_.insert(index);
     auto known = Read(transform, counters);
     if (!known) continue;
     known->record_nanos = arrival.stamp_nanos;
@@ -56,7 +64,7 @@ bool TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
     }
   }
   if (touched_.empty()) ++counters.ignored[new_name_at_ ? kNaming : kNobody];
-  for (const int person : touched_) Give(person, arrival, counters, sink);
+  for (const auto& [person, slots] : touched_) Give(person, arrival, counters, sink);
   return !touched_.empty();
 }
 

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -75,7 +74,7 @@ class TransformPeople {
                                              // searched since
   std::vector<Person> people_;               // by index of frames_.people()
   std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child
-  std::set<int> touched_;  // people with a transform in the current message
+  std::map<int, TransformPerson::Slots> touched_;  // by person: their transforms in the message
 };
 
 }  // namespace kinescope::ros_bridge

@@ -38,6 +38,15 @@ bool TransformPerson::HasSegments() const {
   return false;
 }
 
+bool TransformPerson::Begin(const Slots& slots) {
+  bool has_again = false;
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    has_again = has_again || (present_.test(At(segment)) && slots.test(At(segment)));
+  }
+  if (has_again) present_.reset();
+  return has_again;
+}
+
 bool TransformPerson::Add(const FrameTransform& transform) {
   const std::size_t slot = At(transform.slot);
   bool cut_short = false;

@@ -33,8 +33,14 @@ class TransformPerson {
     kNoTree,     // a complete set whose frames have different roots, or form a cycle
   };
 
+  using Slots = std::bitset<kFrameSlots>;
+
   explicit TransformPerson(int id) { sample_.character = id; }
 
+  /// Call it before the transforms of a message are added. `slots`: theirs. True if they begin the
+  /// next set although the current one lacks segments: what was left of that would cut a whole set
+  /// in two.
+  [[nodiscard]] bool Begin(const Slots& slots);
   /// True if `transform` begins the next set although the current one lacks segments.
   bool Add(const FrameTransform& transform);
   /// Adds a frame of /tf_static: part of every later set that does not contain it itself.
@@ -66,11 +72,11 @@ class TransformPerson {
 
   // The set that is being collected.
   std::array<FrameTransform, kFrameSlots> pending_;
-  std::bitset<kFrameSlots> present_;
+  Slots present_;
   std::int64_t first_record_nanos_ = 0;
 
   std::array<FrameTransform, kFrameSlots> static_;  // kept for all sets
-  std::bitset<kFrameSlots> is_static_;
+  Slots is_static_;
 
   BodySample sample_;  // the newest
   std::string root_;

@@ -185,6 +185,18 @@ TEST_F(TransformPeopleTest, CountsRejectedTransformsAndContinues) {
   EXPECT_GT(sink_.samples[2].stamp_nanos, sink_.samples[1].stamp_nanos);
 }
 
+// What it left cut each whole message after it in two, and the person stood still for good.
+TEST_F(TransformPeopleTest, GoesOnAfterAStrayTransformOfOneSegment) {
+  Settle();
+  for (int n = 0; n < 10; ++n) {
+    Take(n, TransformsOf(PersonAt(n)));
+    if (n == 3) Take(n, FrameAtOrigin("world", "skeleton_right_hand"));
+    if (n == 6) Take(n, FrameAtOrigin("odom", "skeleton_pelvis"));
+  }
+  EXPECT_EQ(sink_.samples.size(), 10U);
+  EXPECT_THAT(counters_.rejected, ElementsAre(Pair("sample without all 23 segments", 2)));
+}
+
 TEST_F(TransformPeopleTest, DetectsAChangeOfPersonAfterASecond) {
   Settle();
   for (int n = 0; n < 300; ++n) Take(n, TransformsOf(PersonAt(n, n < 100 ? 1.75 : 1.95)));
