@@ -171,6 +171,19 @@ SourceError ErrorIn(const std::string& name, const std::string& what) {
   return SourceError("bag '" + name + "': " + what);
 }
 
+// "" if all could be read.
+std::string DamageIn(const BagMessages& messages) {
+  std::uint64_t count = 0;
+  std::vector<std::string> kinds;
+  for (const auto& [defect, records] : messages.defects()) {
+    count += records;
+    kinds.push_back(fmt::format("{}: {}", defect, records));
+  }
+  if (count == 0) return "";
+  return fmt::format("{} damaged {} left out ({})", count,
+                     count == 1 ? "record was" : "records were", fmt::join(kinds, ", "));
+}
+
 void BagSource::ReadNames() {
   BagMessages ahead(OpenBagFile(name_), [this](const BagConnection& connection) {
     return HasTransforms(connection) || IsLinkStates(connection);
@@ -254,6 +267,7 @@ std::string BagSource::WhyNobody(const BagMessages& all) const {
     why += fmt::format(". What else is in it is shown if you name it: --marker_topics={}",
                        fmt::join(shown, ","));
   }
+  if (const std::string damage = DamageIn(all); !damage.empty()) why += ". " + damage;
   return why;
 }
 
@@ -348,6 +362,8 @@ Source::State BagSource::End() {
         "bag '{}' was not closed or is truncated (the recorder was probably killed); {} complete "
         "messages were read",
         name_, messages_.read());
+  } else if (const std::string damage = DamageIn(messages_); !damage.empty()) {
+    spdlog::warn("bag '{}': {}", name_, damage);
   }
   return State::kEnded;
 }
@@ -385,11 +401,11 @@ void BagSource::PassMomentWithoutPeople(std::int64_t now_nanos) {
   constexpr double kSilentSteps = 3;                           // of slow recordings
   const std::int64_t since = now_nanos - person_nanos_;
   if (needs_person_ || person_nanos_ == 0 || since <= kSilentNanos) return;
+  joiner_.Flush();
   const double step_secs =
       watch_.step_nanos() != 0 || rate_hz_ <= 0 ? Secs(watch_.step_nanos()) : 1 / rate_hz_;
   if (Secs(since) <= kSilentSteps * step_secs) return;
   if (!surroundings_.HasSomething()) return;
-  joiner_.Flush();
   PassMoment(now_nanos, watch_.newest_nanos() + since);
 }
 

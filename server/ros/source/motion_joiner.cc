@@ -1,6 +1,8 @@
 #include "server/ros/source/motion_joiner.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "server/ros/source/link_motion.h"
 
@@ -9,6 +11,14 @@ namespace {
 
 constexpr std::int64_t kSameNanos = 1000;  // stamps are whole microseconds in some programs
 constexpr double kSamePlace = 1e-3;        // m; several people have samples of one stamp
+
+struct Delivery {
+  void operator()(const Character& character) const { to.OnCharacter(character); }
+  void operator()(const BodySample& sample) const { to.OnSample(sample); }
+  void operator()(const ObjectsSample& objects) const { to.OnObjects(objects); }
+  void operator()(const RecordedSurroundings& all) const { to.OnSurroundings(all); }
+  SampleSink& to;
+};
 
 }  // namespace
 
@@ -25,6 +35,34 @@ bool MotionJoiner::Join(const xsens_mvn_ros_msgs::LinkStateArray& message, BodyS
   return true;
 }
 
+void MotionJoiner::GiveUp(int character, std::size_t end) {
+  for (std::size_t i = 0; i < end; ++i) {
+    const auto* const sample = std::get_if<BodySample>(&queue_[i].content);
+    if (sample != nullptr && sample->character == character) queue_[i].waits = false;
+  }
+}
+
+// Link states come in their order: samples of the same person before this one have none.
+bool MotionJoiner::JoinWaiting(const xsens_mvn_ros_msgs::LinkStateArray& message) {
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    if (!queue_[i].waits) continue;
+    auto& sample = std::get<BodySample>(queue_[i].content);
+    if (!Join(message, sample)) continue;
+    without_[sample.character] = 0;
+    GiveUp(sample.character, i + 1);
+    return true;
+  }
+  return false;
+}
+
+bool MotionJoiner::JoinEarly(BodySample& sample) {
+  const auto message = std::find_if(early_.begin(), early_.end(),
+                                    [&](const auto& each) { return Join(each, sample); });
+  if (message == early_.end()) return false;
+  early_.erase(message);
+  return true;
+}
+
 bool MotionJoiner::Take(const xsens_mvn_ros_msgs::LinkStateArray& message,
                         SourceCounters& counters) {
   LinkStatesBySegment states{};
@@ -33,45 +71,52 @@ bool MotionJoiner::Take(const xsens_mvn_ros_msgs::LinkStateArray& message,
     return false;
   }
   are_there_ = true;
-  for (auto waiting = waiting_.begin(); waiting != waiting_.end(); ++waiting) {
-    if (!Join(message, waiting->second)) continue;
-    sink_->OnSample(waiting->second);
-    waiting_.erase(waiting);
+  if (JoinWaiting(message)) {
+    Deliver();
     return true;
   }
   early_.push_back(message);
-  if (early_.size() > kMostMessages) early_.pop_front();
+  if (early_.size() > kMostWaiting) {
+    early_.pop_front();
+    without_.clear();  // a person's link states come again
+  }
   return true;
 }
 
+template <class Content>
+void MotionJoiner::Queue(const Content& content, bool waits) {
+  if (queue_.empty() && !waits) return Delivery{*sink_}(content);
+  queue_.push_back({content, waits});
+}
+
+void MotionJoiner::Deliver() {
+  for (; !queue_.empty() && !queue_.front().waits; queue_.pop_front()) {
+    std::visit(Delivery{*sink_}, queue_.front().content);
+  }
+}
+
 void MotionJoiner::Flush() {
-  for (const auto& [character, sample] : waiting_) sink_->OnSample(sample);
-  waiting_.clear();
-}
-
-void MotionJoiner::FlushOf(int character) {
-  const auto waiting = waiting_.find(character);
-  if (waiting == waiting_.end()) return;
-  sink_->OnSample(waiting->second);
-  waiting_.erase(waiting);
-}
-
-// Another person's sample goes on waiting: its link states may be the next message.
-void MotionJoiner::OnCharacter(const Character& character) {
-  FlushOf(character.id);
-  sink_->OnCharacter(character);
+  for (Event& event : queue_) event.waits = false;
+  Deliver();
 }
 
 void MotionJoiner::OnSample(const BodySample& sample) {
-  FlushOf(sample.character);
-  if (!are_there_) return sink_->OnSample(sample);
+  if (!are_there_) return Queue(sample);
   BodySample joined = sample;
-  for (auto message = early_.begin(); message != early_.end(); ++message) {
-    if (!Join(*message, joined)) continue;
-    early_.erase(message);
-    return sink_->OnSample(joined);
+  std::size_t& without = without_[sample.character];
+  if (JoinEarly(joined)) {
+    without = 0;
+    return Queue(joined);
   }
-  waiting_.emplace(sample.character, sample);
+  const bool waits = without < kMostWaiting;
+  if (waits) ++without;
+  Queue(sample, waits);
+  if (!waits) GiveUp(sample.character, queue_.size());
+  Deliver();
 }
+
+void MotionJoiner::OnCharacter(const Character& character) { Queue(character); }
+void MotionJoiner::OnObjects(const ObjectsSample& objects) { Queue(objects); }
+void MotionJoiner::OnSurroundings(const RecordedSurroundings& all) { Queue(all); }
 
 }  // namespace kinescope::ros_bridge

@@ -805,7 +805,9 @@ TEST_P(CompressedBagTest, SkipsAndCountsADamagedChunk) {
   for (int n = 0; n < 4; ++n) chunk = bytes.find("compression=", chunk + 1);
   std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(chunk) + 200, 40, '\x7f');
   std::ofstream(bag, std::ios::binary) << bytes;
+  const kinescope::testing::CapturedLog log;
   const ReadPeople recorded = ReadBag(bag);
+  EXPECT_THAT(log.text(), HasSubstr("left out (")) << "also without `inspect`";
   EXPECT_GE(recorded.samples.size(), 15U);
   EXPECT_LT(recorded.samples.size(), 20U);
   const auto& rejected = recorded.counters.rejected;
