@@ -1,6 +1,8 @@
 #include "server/ros/markers.h"
 
 #include <algorithm>
+#include <bitset>
+#include <cstddef>
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
@@ -81,6 +83,11 @@ class MarkerWriter {
     return marker;
   }
 
+  void Remove(const char* ns, int id) {
+    Add(ns, id, Marker::SPHERE, Eigen::Vector3d::Zero(), Cube(1), kComColor).action =
+        Marker::DELETE;
+  }
+
   void Finish() { message_.markers.resize(next_); }
 
  private:
@@ -134,6 +141,42 @@ void AddHeld(const PersonState& person, MarkerWriter& out) {
   }
 }
 
+// What a person has, but not in every sample.
+struct Passing {
+  const char* ns;
+  int count;  // ids from 0
+};
+constexpr Passing kPassing[] = {{kCom, 1},
+                                {kCop, 1},
+                                {kSupport, 1},
+                                {kForces, 2},
+                                {kHandLoads, static_cast<int>(kMaxHandLoadSolids)}};
+using PassingSet = std::bitset<16>;  // in the order of kPassing and ids
+
+PassingSet PassingOf(const visualization_msgs::MarkerArray& message) {
+  PassingSet found;
+  for (const Marker& marker : message.markers) {
+    int first = 0;
+    for (const Passing& each : kPassing) {
+      if (marker.ns == each.ns && marker.action == Marker::ADD) {
+        found.set(urdf::At(first + marker.id));
+      }
+      first += each.count;
+    }
+  }
+  return found;
+}
+
+void RemovePassed(const PassingSet& passed, MarkerWriter& out) {
+  int first = 0;
+  for (const Passing& each : kPassing) {
+    for (int id = 0; id < each.count; ++id) {
+      if (passed.test(urdf::At(first + id))) out.Remove(each.ns, id);
+    }
+    first += each.count;
+  }
+}
+
 }  // namespace
 
 double MarkerLifetime(double period_secs) {
@@ -143,6 +186,7 @@ double MarkerLifetime(double period_secs) {
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message, double lifetime_secs) {
+  const PassingSet before = PassingOf(message);
   MarkerWriter out(message, person, names, reference_frame, frames, lifetime_secs);
   for (const JointLoad& load : person.loads) {
     out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
@@ -161,6 +205,7 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
   AddFootForces(person.forces, out);
   AddHeld(person, out);
   out.Finish();
+  RemovePassed(before & ~PassingOf(message), out);
 }
 
 void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& message) {

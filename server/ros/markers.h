@@ -34,7 +34,7 @@ enum class MarkerFrames {
 /// "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor, id 0;
 /// "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
 /// (kMetresPerNewton), id = urdf::Side; "hand_loads": the hand loads as solids. Absent and unknown
-/// values have no marker.
+/// values have no marker; those that `message` had, the last one of this person, are deleted.
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message, double lifetime_secs = kMarkerLifetime);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "core/palette.h"
 #include "tests/server/ros/test_person.h"
@@ -87,8 +88,38 @@ TEST(Markers, AreNotKeptFromAnEarlierSample) {
   person.cop.reset();
   person.loads.pop_back();
   FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0, message);
-  ASSERT_EQ(message.markers.size(), person.loads.size() + 1);
-  EXPECT_EQ(message.markers.back().ns, "com");
+  ASSERT_EQ(message.markers.size(), person.loads.size() + 2);
+  EXPECT_EQ(message.markers[person.loads.size()].ns, "com");
+  EXPECT_EQ(message.markers.back().ns, "cop");
+  EXPECT_EQ(message.markers.back().action, Marker::DELETE);
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0, message);
+  EXPECT_EQ(message.markers.size(), person.loads.size() + 1) << "it is deleted once";
+}
+
+// RViz showed the arrow of a foot on the floor until its lifetime was over, half a step behind.
+TEST(Markers, OfAFootAreDeletedWhenItLifts) {
+  PersonState person = MarkedPerson();
+  for (FootForce& foot : person.forces.feet) {
+    foot.force = {0, 0, 400};
+    foot.cop = {1, 2, 0};
+  }
+  auto message = Of(person);
+  const auto arrows = [&](int action) {
+    std::vector<int> ids;
+    for (const Marker& marker : message.markers) {
+      if (marker.ns == "foot_forces" && marker.action == action) ids.push_back(marker.id);
+    }
+    return ids;
+  };
+  EXPECT_EQ(arrows(Marker::ADD), (std::vector<int>{urdf::kRight, urdf::kLeft}));
+  person.forces.feet[urdf::kLeft].force.setZero();
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0, message);
+  EXPECT_EQ(arrows(Marker::ADD), (std::vector<int>{urdf::kRight}));
+  EXPECT_EQ(arrows(Marker::DELETE), (std::vector<int>{urdf::kLeft}));
+  person.forces.feet[urdf::kLeft].force = {0, 0, 400};
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0, message);
+  EXPECT_EQ(arrows(Marker::ADD), (std::vector<int>{urdf::kRight, urdf::kLeft}));
+  EXPECT_TRUE(arrows(Marker::DELETE).empty());
 }
 
 TEST(Markers, LiveLongerThanTwoSamplesOfASlowStream) {
