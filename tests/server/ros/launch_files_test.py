@@ -47,6 +47,14 @@ class LaunchFiles(unittest.TestCase):
             self.assertEqual([node.package for node in named], ["rviz"], name)
             self.assertIn("-d /mine.rviz", named[0].args)
 
+    def test_names_of_nodes_may_begin_with_a_slash(self):
+        for node in ("lab", "/lab", "ns/lab"):
+            wanted = "/" + node.strip("/")
+            record = load("record.launch", bag="/data/trial", node=node).nodes[0]
+            self.assertIn(f'-e "{wanted}/(.*/)?(', record.args)
+            rviz = load("rviz.launch", node=node).nodes[0]
+            self.assertEqual(rviz.args.split()[-2:], ["--node", wanted])
+
 
 if __name__ == "__main__":
     unittest.main()
