@@ -287,7 +287,7 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
 bool IsTopicName(const std::string& text) {
   const bool is_private = !text.empty() && text.front() == '~';
   const std::string name = is_private ? text.substr(1) : text;
-  return IsName(name) &&
+  return IsName(name) && name.find_first_not_of('/') != std::string::npos &&
          (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
 }
 

@@ -30,10 +30,11 @@ using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
-constexpr double kDarkest = 48.0 / 255;   // RViz's own background
-constexpr double kLeastAhead = 0.1;       // m, from a camera to its target
-constexpr double kFarthestCamera = 1000;  // m, of a camera
-constexpr double kNearest = 0.05;         // m, a clip distance that cuts nothing off
+constexpr double kDarkest = 48.0 / 255;          // RViz's own background
+constexpr double kLeastAhead = 0.1;              // m, from a camera to its target
+constexpr double kWidestHalf = 75 * M_PI / 180;  // rad, of the field of view
+constexpr double kFarthestCamera = 1000;         // m, of a camera
+constexpr double kNearest = 0.05;                // m, a clip distance that cuts nothing off
 // Namespaces of our markers, which are the names of the parts that they show.
 constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
 
@@ -478,8 +479,10 @@ class RvizReader {
     if (kind == "rviz/ThirdPersonFollower") picture_.target.turn = ":heading";
     if (kind == "rviz/FrameAligned") picture_.target.turn = ":pose";
     const render::Camera& camera = view.camera;
-    if (std::max(camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff()) >
-        kFarthestCamera) {
+    const double farthest =
+        std::max({camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff(),
+                  0.5 * camera.ortho_height_m / std::tan(kWidestHalf)});
+    if (!(farthest <= kFarthestCamera)) {
       Remark(place, fmt::format("the camera is more than {} m away; ours stays where it is",
                                 kFarthestCamera));
       return;
@@ -499,7 +502,7 @@ class RvizReader {
       // As far away as a field of view from 1° to 150° has this height.
       const double half = camera.ortho_height_m / 2;
       const double distance =
-          std::clamp((camera.position - camera.target).norm(), half / std::tan(75 * M_PI / 180),
+          std::clamp((camera.position - camera.target).norm(), half / std::tan(kWidestHalf),
                      half / std::tan(0.5 * M_PI / 180));
       camera.position = camera.target - distance * ahead.normalized();
       fov = 2 * std::atan2(0.5 * camera.ortho_height_m, (camera.position - camera.target).norm());

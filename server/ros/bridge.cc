@@ -149,6 +149,7 @@ class Bridge : public RosBridge {
     const auto node = registration_.Node();
     if (!node) return false;
     if (state == "lost") DeleteMarkers();
+    if (state == "live") status_.emplace();  // rates count from here
     ros_bridge::PublishState(state, *node);
     return true;
   }

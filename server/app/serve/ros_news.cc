@@ -189,7 +189,8 @@ void RosNews::OnMark(const std::string& text) {
   const std::size_t letters = DecodeUtf8(line).size();
   const bool is_button = line.size() == 1 && line[0] >= '1' && line[0] <= '9';
   const auto refuse = [&](const std::string& why) { spdlog::warn("~mark was not kept: {}", why); };
-  if (marks_ == nullptr) return refuse("this server keeps no history (--history_minutes)");
+  if (marks_ == nullptr)
+    return refuse("marks need `kinescope serve` with a history (--history_minutes)");
   if (state == nullptr || state->stamp_nanos == 0) return refuse("no sample has come yet");
   if (line.find_first_not_of(' ') == std::string::npos) return refuse("its text is empty");
   if (letters > http::kLongestMark) {

@@ -662,6 +662,12 @@ TEST(RvizFile, HasTheScaleOfAnyViewFromAbove) {
     EXPECT_NEAR(camera.ortho_height_m, kPictureHeight / scale, 1e-3 * kPictureHeight / scale);
     EXPECT_GT(camera.position.z(), 1);
   }
+  for (const char* scale : {"0.02", "0", "no number"}) {  // the camera would be too far away
+    const RvizPicture far =
+        ReadText(WithView(std::string("      {Class: rviz/TopDownOrtho, Scale: ") + scale + "}\n"));
+    EXPECT_EQ(SettingsOf(far).count("camera"), 0U) << scale;
+    EXPECT_THAT(far.remarks, Contains(HasSubstr("more than 1000 m away"))) << scale;
+  }
   const render::Camera turned = CameraOf("      {Class: rviz/TopDownOrtho, Scale: -10}\n");
   EXPECT_NEAR(turned.up.y(), -1, 1e-9);
 }
