@@ -23,10 +23,10 @@ struct Delivery {
 }  // namespace
 
 // False if the message is not of this sample.
-bool MotionJoiner::Join(const xsens_mvn_ros_msgs::LinkStateArray& message, BodySample& sample) {
+bool MotionJoiner::Join(const Stamped& link_states, BodySample& sample) {
+  if (std::abs(link_states.stamp_nanos - sample.stamp_nanos) > kSameNanos) return false;
   LinkStatesBySegment states{};
-  if (FindLinks(message, states) != nullptr) return false;
-  if (std::abs(StampOf(message, states) - sample.stamp_nanos) > kSameNanos) return false;
+  if (FindLinks(link_states.message, states) != nullptr) return false;
   const auto& at = states[urdf::kPelvis]->pose.position;
   const Eigen::Vector3d apart =
       Eigen::Vector3d(at.x, at.y, at.z) - sample.segments[urdf::kPelvis].position;
@@ -43,11 +43,11 @@ void MotionJoiner::GiveUp(int character, std::size_t end) {
 }
 
 // Link states come in their order: samples of the same person before this one have none.
-bool MotionJoiner::JoinWaiting(const xsens_mvn_ros_msgs::LinkStateArray& message) {
+bool MotionJoiner::JoinWaiting(const Stamped& link_states) {
   for (std::size_t i = 0; i < queue_.size(); ++i) {
     if (!queue_[i].waits) continue;
     auto& sample = std::get<BodySample>(queue_[i].content);
-    if (!Join(message, sample)) continue;
+    if (!Join(link_states, sample)) continue;
     without_[sample.character] = 0;
     GiveUp(sample.character, i + 1);
     return true;
@@ -56,10 +56,10 @@ bool MotionJoiner::JoinWaiting(const xsens_mvn_ros_msgs::LinkStateArray& message
 }
 
 bool MotionJoiner::JoinEarly(BodySample& sample) {
-  const auto message = std::find_if(early_.begin(), early_.end(),
-                                    [&](const auto& each) { return Join(each, sample); });
-  if (message == early_.end()) return false;
-  early_.erase(message);
+  const auto found = std::find_if(early_.begin(), early_.end(),
+                                  [&](const Stamped& each) { return Join(each, sample); });
+  if (found == early_.end()) return false;
+  early_.erase(found);
   return true;
 }
 
@@ -71,11 +71,12 @@ bool MotionJoiner::Take(const xsens_mvn_ros_msgs::LinkStateArray& message,
     return false;
   }
   are_there_ = true;
-  if (JoinWaiting(message)) {
+  Stamped link_states{StampOf(message, states), message};
+  if (JoinWaiting(link_states)) {
     Deliver();
     return true;
   }
-  early_.push_back(message);
+  early_.push_back(std::move(link_states));
   if (early_.size() > kMostWaiting) {
     early_.pop_front();
     without_.clear();  // a person's link states come again

@@ -11,6 +11,7 @@
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <variant>
@@ -39,6 +40,10 @@ class MotionJoiner : public SampleSink {
   void OnSurroundings(const RecordedSurroundings& all) override;
 
  private:
+  struct Stamped {
+    std::int64_t stamp_nanos = 0;
+    xsens_mvn_ros_msgs::LinkStateArray message;
+  };
   struct Event {
     std::variant<Character, BodySample, ObjectsSample, RecordedSurroundings> content;
     bool waits = false;  // a sample: for its link states
@@ -48,15 +53,15 @@ class MotionJoiner : public SampleSink {
   void Queue(const Content& content, bool waits = false);
   void Deliver();                               // those at the front that do not wait
   void GiveUp(int character, std::size_t end);  // its samples among the first `end` events
-  bool JoinWaiting(const xsens_mvn_ros_msgs::LinkStateArray& message);
+  bool JoinWaiting(const Stamped& link_states);
   bool JoinEarly(BodySample& sample);
-  static bool Join(const xsens_mvn_ros_msgs::LinkStateArray& message, BodySample& sample);
+  static bool Join(const Stamped& link_states, BodySample& sample);
 
   SampleSink* sink_ = nullptr;
   bool are_there_ = false;  // messages of link states have come, or will
   std::deque<Event> queue_;
   std::map<int, std::size_t> without_;  // by character: samples in a row that found none
-  std::deque<xsens_mvn_ros_msgs::LinkStateArray> early_;  // no sample has been found for them yet
+  std::deque<Stamped> early_;           // no sample has been found for them yet
 };
 
 }  // namespace kinescope::ros_bridge
