@@ -11,9 +11,11 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/scene_frame.h"
@@ -180,8 +182,9 @@ std::string DamageIn(const BagMessages& messages) {
     kinds.push_back(fmt::format("{}: {}", defect, records));
   }
   if (count == 0) return "";
-  return fmt::format("{} damaged {} left out ({})", count,
-                     count == 1 ? "record was" : "records were", fmt::join(kinds, ", "));
+  return fmt::format("{} left out ({})",
+                     Counted(count, "damaged record was", "damaged records were"),
+                     fmt::join(kinds, ", "));
 }
 
 void BagSource::ReadNames() {

@@ -44,8 +44,10 @@ bool TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
     for (const auto& [name, transform] : static_) AddStatic(transform, counters);
   }
   touched_.clear();
+  places_.clear();
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const PeopleFrames::Place place = frames_.PlaceOf(WithoutSlash(transform.child_frame_id));
+    places_.push_back(place);
     if (place.person >= 0) touched_[place.person].set(static_cast<std::size_t>(place.slot));
   }
   for (const auto& [person, slots] : touched_) {
@@ -53,13 +55,13 @@ bool TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
       ++counters.rejected[kIncompleteTransforms];
     }
   }
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    const int index = frames_.PlaceOf(WithoutSlash(transform.child_frame_id)).person;
-    if (index < 0) continue;
-    auto known = Read(transform, counters);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PeopleFrames::Place place = places_[i];
+    if (place.person < 0) continue;
+    auto known = Read(message.transforms[i], place, counters);
     if (!known) continue;
     known->record_nanos = arrival.stamp_nanos;
-    if (people_[static_cast<std::size_t>(index)].transforms.Add(*known)) {
+    if (people_[static_cast<std::size_t>(place.person)].transforms.Add(*known)) {
       ++counters.rejected[kIncompleteTransforms];
     }
   }
@@ -85,10 +87,12 @@ void TransformPeople::TakeStatic(const tf2_msgs::TFMessage& message, SourceCount
 
 void TransformPeople::AddStatic(const geometry_msgs::TransformStamped& transform,
                                 SourceCounters& counters) {
-  const auto index =
-      static_cast<std::size_t>(frames_.PlaceOf(WithoutSlash(transform.child_frame_id)).person);
+  const PeopleFrames::Place place = frames_.PlaceOf(WithoutSlash(transform.child_frame_id));
+  const auto index = static_cast<std::size_t>(place.person);
   if (index >= people_.size()) return;
-  if (const auto known = Read(transform, counters)) people_[index].transforms.AddStatic(*known);
+  if (const auto known = Read(transform, place, counters)) {
+    people_[index].transforms.AddStatic(*known);
+  }
 }
 
 void TransformPeople::End(SourceCounters& counters) {
@@ -98,8 +102,8 @@ void TransformPeople::End(SourceCounters& counters) {
 }
 
 std::optional<FrameTransform> TransformPeople::Read(
-    const geometry_msgs::TransformStamped& transform, SourceCounters& counters) const {
-  const PeopleFrames::Place place = frames_.PlaceOf(WithoutSlash(transform.child_frame_id));
+    const geometry_msgs::TransformStamped& transform, const PeopleFrames::Place& place,
+    SourceCounters& counters) const {
   const auto& t = transform.transform.translation;
   const auto& r = transform.transform.rotation;
   if (const char* defect = DefectOf({t.x, t.y, t.z}, {r.x, r.y, r.z, r.w})) {

@@ -62,8 +62,10 @@ class TransformPeople {
   };
 
   void NoticeNames(const tf2_msgs::TFMessage& message, std::int64_t now);
-  /// The transform as one of a person's frames; nothing if it belongs to no person or is invalid.
+  /// The transform, whose child is at `place`, as one of a person's frames; nothing if it is
+  /// invalid.
   std::optional<FrameTransform> Read(const geometry_msgs::TransformStamped& transform,
+                                     const PeopleFrames::Place& place,
                                      SourceCounters& counters) const;
   void AddStatic(const geometry_msgs::TransformStamped& transform, SourceCounters& counters);
   void Give(int index, const Arrival& arrival, SourceCounters& counters, SampleSink& sink);
@@ -74,6 +76,7 @@ class TransformPeople {
                                              // searched since
   std::vector<Person> people_;               // by index of frames_.people()
   std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child
+  std::vector<PeopleFrames::Place> places_;        // of the transforms in the message
   std::map<int, TransformPerson::Slots> touched_;  // by person: their transforms in the message
 };
 

@@ -23,8 +23,11 @@ class MotionJoinerTest : public ::testing::Test {
 
   // Two people at the same times in different places.
   static PersonState PersonAt(int character, int n) {
-    auto person = testing::MakePerson(testing::MakeModel(), testing::Posture(0.05 * n + character),
-                                      static_cast<std::uint32_t>(n), (n + 1) * kJoinedPeriod);
+    static const PersonState kStanding =
+        testing::MakePerson(testing::MakeModel(), testing::Posture(1), 0, 0);
+    PersonState person = kStanding;
+    person.sample.counter = static_cast<std::uint32_t>(n);
+    person.sample.stamp_nanos = (n + 1) * kJoinedPeriod;
     person.sample.character = character;
     for (SegmentState& segment : person.sample.segments) segment.position.y() += character;
     for (urdf::Pose& link : person.links) link.position.y() += character;
