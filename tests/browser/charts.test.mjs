@@ -104,8 +104,13 @@ test('the playhead is where the slider is, and moves away from now while the pag
     const moment = document.getElementById('moment'), { min, value } = moment, place = moment.getBoundingClientRect();
     return place.left - left + place.width * (1 - Number(value) / Number(min));
   }, box.x);
-  const before = await slid(), at = await playheadAt(page), after = await slid();
-  assert.ok(at.length >= 1 && at.length <= 5, `${at.length} columns of the playhead`);
+  let before, at, after;
+  do {  // the word changes at the click, the strip at the next frame
+    before = await slid();
+    at = await playheadAt(page);
+    after = await slid();
+  } while (at.length === 0);
+  assert.ok(at.length <= 5, `${at.length} columns of the playhead`);
   assert.ok(at[0] <= before + 3 && at.at(-1) >= after - 3, `the playhead is at ${at}, the slider was from ${before} to ${after}`);
   while (await slid() >= before) continue;  // the test has a time limit
   await close();

@@ -87,9 +87,11 @@ test('marks that are set while the server cannot be reached are set when it can 
   const passes = way.of, isCut = (route) => route.abort();
   const before = (await lines()).length;
   way.of = isCut;
+  const shown = await page.textContent('#sample');
   await page.keyboard.press('1');
   await saidIs(page, /^1 mark waits for the server$/);
-  const seen = Number(await page.textContent('#sample'));
+  await page.waitForFunction((last) => document.getElementById('sample').textContent !== last, shown, LONG);
+  const seen = Number(await page.textContent('#sample'));  // the text is older than the picture: the key was before this one
   await page.keyboard.press('Shift+Digit2');
   await saidIs(page, /^2 marks wait for the server$/);
   assert.equal((await lines()).length, before);
