@@ -20,6 +20,7 @@ export class AlarmPanel {
   #drawn = '';
   #told = 0;  // id
   #isLossTold = false;
+  #isUnblocking = false;  // the press now
 
   /** @param {Parts} parts
    *  @param {import('./alarms.js').Alarms} alarms
@@ -32,6 +33,9 @@ export class AlarmPanel {
     this.shown = shown;
     this.page = page;
     parts.acknowledge.addEventListener('click', () => this.#acknowledge());
+    // The press that lets the page sound is over before its click, which would mute at once.
+    const press = () => { this.#isUnblocking = this.#sound.stateAt(performance.now()) === 'blocked'; };
+    for (const event of ['pointerdown', 'keydown']) addEventListener(event, press, { capture: true });
     parts.sound.addEventListener('click', () => this.#mute());
     parts.show.addEventListener('click', () => {
       const first = this.alarms.shown.find(hasMoment) ?? this.alarms.last;
@@ -51,8 +55,9 @@ export class AlarmPanel {
 
   #mute() {
     const now = performance.now();
-    if (this.#sound.stateAt(now) !== 'blocked') this.#sound.toggleMute(now, this.#highest());
-    else this.#sound.arm();
+    if (this.#isUnblocking || this.#sound.stateAt(now) === 'blocked') this.#sound.arm();
+    else this.#sound.toggleMute(now, this.#highest());
+    this.#isUnblocking = false;
   }
 
   /** All that are shown: who has read the line has seen that there are more. */
