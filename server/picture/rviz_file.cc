@@ -59,7 +59,7 @@ class RvizReader {
     ReadTools(Member(manager, "Tools"));
     ReadDisplays(Member(manager, "Displays"), BoolOf(manager, "Enabled", true));
     NameRingsWithoutRobots();
-    SetParts(LineOf(manager));
+    SetParts(manager);
     ReadView(manager);
     ReadTime(Member(root, "Panels"));
     return std::move(picture_);
@@ -250,6 +250,7 @@ class RvizReader {
     if (!has_model_ && alpha < 1) {
       Set("body_opacity", options::NumberText(alpha), LineOf(display));
     }
+    if (alpha == 0) Remark(display, called + ": Alpha is 0: it is not seen");
     has_model_ = true;
   }
 
@@ -434,16 +435,23 @@ class RvizReader {
     return names;
   }
 
-  // Parts are drawn that some display shows.
+  // Parts are drawn that some display of our markers shows: of a topic as the bridge calls it, or
+  // with one of our namespaces.
   void ReadMarkers(const YAML::Node& display) {
     has_markers_ = true;
     const YAML::Node namespaces = Member(display, "Namespaces");
+    const bool has_ours =
+        std::any_of(std::begin(kMarkerParts), std::end(kMarkerParts),
+                    [&](const char* part) { return Member(namespaces, part).IsDefined(); });
+    const std::string topic = "/" + TextOf(display, "Marker Topic", "");
+    if (!has_ours && !EndsWith(topic, "/markers")) return;
     for (const char* part : kMarkerParts) {
       if (BoolOf(namespaces, part, true)) shown_parts_.insert(part);
     }
   }
 
-  void SetParts(int line) {
+  void SetParts(const YAML::Node& manager) {
+    const int line = LineOf(manager);
     for (const auto& [display, called] : cameras_) {
       if (has_grid_) Remark(display, called + ": the floor is not drawn over its picture");
     }
@@ -456,6 +464,9 @@ class RvizReader {
       if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
     }
     Set("hide", hidden, line);
+    if (!has_model_ && shown_parts_.empty() && picture_.topics.empty()) {
+      Remark(manager, "no display that is on shows people: of them nothing is drawn");
+    }
     if (has_frames_) Set("show", "link_frames", line);  // of a source without TF
   }
 

@@ -1,31 +1,40 @@
 #include "server/ros/force_frames.h"
 
+#include <spdlog/fmt/fmt.h>
 #include <tf2/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/system/starts_with.h"
+#include "server/ros/raw_message.h"
 #include "server/ros/stamp.h"
 #include "urdf/segments.h"
 
 namespace kinescope::ros_bridge {
 namespace {
 
-bool IsGood(const geometry_msgs::TransformStamped& stamped) {
+// Null: nothing.
+const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
   const auto& p = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
   const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   constexpr double kMaxOff = 0.01;
-  return !stamped.child_frame_id.empty() && !stamped.header.frame_id.empty() &&
-         stamped.child_frame_id != stamped.header.frame_id && std::isfinite(p.x) &&
-         std::isfinite(p.y) && std::isfinite(p.z) && std::abs(norm - 1) < kMaxOff;
+  if (stamped.child_frame_id.empty() || stamped.header.frame_id.empty()) return "without a name";
+  if (stamped.child_frame_id == stamped.header.frame_id) return "whose parent is itself";
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(norm)) {
+    return "with a number that is not finite";
+  }
+  return std::abs(norm - 1) < kMaxOff ? nullptr : "with a quaternion that is not of unit length";
 }
 
 // tf2 refuses what is older than all that it keeps. Once nothing else comes, the clock of the
 // senders was set back: a bag that is played again, a simulator that was started over.
 constexpr int kTooOldForAJump = 20;
+constexpr std::size_t kMostOfName = 100;  // bytes, in a line of the log
+constexpr char kTooOld[] = "that is older than all that is kept";
 
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {
   const bool has_model =
@@ -35,49 +44,48 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
 
 }  // namespace
 
-bool TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
-  if (!IsGood(transform)) return false;
-  const auto newest = newest_.find(transform.child_frame_id);
-  const bool is_known = newest != newest_.end() && newest->second == transform.header.stamp;
-  if (is_known && !is_static) return true;
-  if (buffer_.setTransform(transform, "/tf", is_static)) {
-    if (is_static) return true;
-    too_old_in_a_row_ = 0;
-    ros::Time& taken = newest_[transform.child_frame_id];
-    taken = std::max(taken, transform.header.stamp);
-    return true;
+const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
+  if (const char* const wrong = WhatIsWrong(transform)) return wrong;
+  const std::int64_t stamp = is_static ? 0 : ToNanos(transform.header.stamp);
+  const std::string frame = WithoutSlash(transform.child_frame_id);
+  const auto known = frames_.find(frame);
+  const bool is_again = known != frames_.end() && known->second.newest_nanos == stamp;
+  if (is_again && !is_static && !known->second.parent.empty()) return nullptr;
+  if (!buffer_.setTransform(transform, "/tf", is_static)) {
+    if (++too_old_in_a_row_ < kTooOldForAJump) return kTooOld;
+    ForgetMoving();
+    if (!buffer_.setTransform(transform, "/tf", is_static)) return kTooOld;
   }
-  if (++too_old_in_a_row_ < kTooOldForAJump) return false;
+  if (!is_static) too_old_in_a_row_ = 0;
+  Note(frame, WithoutSlash(transform.header.frame_id), stamp);
+  return nullptr;
+}
+
+void TfTree::ForgetMoving() {
   buffer_.clear();  // static ones stay
-  newest_.clear();
-  too_old_in_a_row_ = 0;
-  return buffer_.setTransform(transform, "/tf", is_static);
-}
-
-int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
-  return static_cast<int>(std::count_if(
-      message.transforms.begin(), message.transforms.end(),
-      [&](const geometry_msgs::TransformStamped& each) { return !Take(each, is_static); }));
-}
-
-std::vector<TreeFrame> TfTree::frames() const {
-  std::vector<std::string> names;
-  buffer_._getFrameStrings(names);
-  std::vector<TreeFrame> all;
-  for (std::string& name : names) {
-    TreeFrame frame;
-    if (buffer_._getParent(name, ros::Time(0), frame.parent)) {
-      ros::Time newest;
-      buffer_._getLatestCommonTime(buffer_._lookupFrameNumber(frame.parent),
-                                   buffer_._lookupFrameNumber(name), newest, nullptr);
-      frame.newest_nanos = ToNanos(newest);
-    } else {
-      frame.parent.clear();
-    }
-    frame.name = std::move(name);
-    all.push_back(std::move(frame));
+  for (auto each = frames_.begin(); each != frames_.end();) {
+    each = each->second.newest_nanos == 0 ? std::next(each) : frames_.erase(each);
   }
-  return all;
+}
+
+void TfTree::Note(const std::string& frame, const std::string& parent, std::int64_t stamp_nanos) {
+  TreeFrame& known = frames_[frame];
+  known.name = frame;
+  known.parent = parent;
+  known.newest_nanos = std::max(known.newest_nanos, stamp_nanos);
+  frames_.try_emplace(parent, TreeFrame{parent, "", 0});
+}
+
+std::optional<Refusal> TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
+  std::optional<Refusal> first;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const char* const why = Take(transform, is_static);
+    if (why == nullptr || first) continue;
+    first = Refusal{why, fmt::format("a transform {}: '{}' in '{}'", why,
+                                     transform.child_frame_id.substr(0, kMostOfName),
+                                     transform.header.frame_id.substr(0, kMostOfName))};
+  }
+  return first;
 }
 
 std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::string& frame,

@@ -15,6 +15,7 @@
 
 #include "core/scene_state.h"
 #include "server/ros/names.h"
+#include "server/ros/refusal.h"
 
 namespace kinescope::ros_bridge {
 
@@ -30,26 +31,30 @@ struct TreeFrame {
 class TfTree {
  public:
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
-  /// an invalid quaternion) or older than all that are kept, and returns their number. If nothing
-  /// else comes, time was set back: what was kept is forgotten then.
-  int Add(const tf2_msgs::TFMessage& message, bool is_static);
+  /// an invalid quaternion) or older than all that are kept, and returns why it skipped the first
+  /// one. If nothing else comes, time was set back: what was kept is forgotten then.
+  std::optional<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Whether `frame` is among those of other nodes.
   bool Knows(const std::string& frame) const { return buffer_._frameExists(frame); }
 
-  std::vector<TreeFrame> frames() const;
+  /// All of which something was heard, and their parents, by name, in no order.
+  const std::unordered_map<std::string, TreeFrame>& frames() const { return frames_; }
 
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
   std::optional<urdf::Pose> Find(const std::string& target, const std::string& frame,
                                  std::int64_t stamp_nanos) const;
 
  private:
-  bool Take(const geometry_msgs::TransformStamped& transform, bool is_static);
+  /// Null: it is taken.
+  const char* Take(const geometry_msgs::TransformStamped& transform, bool is_static);
+  void ForgetMoving();
+  void Note(const std::string& frame, const std::string& parent, std::int64_t stamp_nanos);
 
   tf2::BufferCore buffer_;
-  // By moving frame, the stamp last taken. Of a simulator that pauses it comes again and again: tf2
-  // would print a line each time, and refuse it as what is too old.
-  std::unordered_map<std::string, ros::Time> newest_;
+  // By name, as tf2 has them. Of a simulator that pauses a stamp comes again and again: tf2 would
+  // print a line each time, and refuse it as what is too old.
+  std::unordered_map<std::string, TreeFrame> frames_;
   int too_old_in_a_row_ = 0;
 };
 

@@ -22,6 +22,8 @@ constexpr char kGroundCop[] = "ground_cop";
 constexpr char kExternalLoads[] = "external_loads";
 constexpr char kExternalJointStates[] = "external_joint_states";
 
+constexpr char kNoPerson[] = "no person";  // yet, which is no error
+
 // Only the newest message counts of a sensor that is faster than the suit.
 constexpr std::uint32_t kForceQueue = 32;
 
@@ -57,11 +59,12 @@ void ForceInbox::Use(const char* topic) {
 }
 
 void ForceInbox::Refuse(const std::string& topic, const Refusal& refusal) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = counters_[topic];
-  ++counters.received;
-  ++counters.refused[refusal.kind];
-  counters.last_problem = refusal.text;
+  bool is_first = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_first = CountRefused(refusal, counters_[topic]);
+  }
+  if (is_first && std::string_view(refusal.kind) != kNoPerson) WarnOfRefused(topic, refusal);
 }
 
 // A header without a time counts as new as the sample; the result is compared with the sample's
@@ -82,7 +85,7 @@ std::int64_t ForceInbox::StampOf(const char* topic, const std_msgs::Header& head
 
 std::optional<FoundFrame> ForceInbox::Place(const char* topic, const std_msgs::Header& header) {
   if (!body_) {
-    Refuse(topic, {"no person", "no person has been received yet"});
+    Refuse(topic, {kNoPerson, "no person has been received yet"});
     return std::nullopt;
   }
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
@@ -225,16 +228,13 @@ void ForceInbox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
 
 void ForceInbox::OnExternalJointStates(const sensor_msgs::JointState& message) {
   if (!body_) {
-    return Refuse(kExternalJointStates, {"no person", "no person has been received yet"});
+    return Refuse(kExternalJointStates, {kNoPerson, "no person has been received yet"});
   }
   UseExternal(kExternalJointStates, ToExternalLoads(message, *body_, settings_.external_scale),
               StampOf(kExternalJointStates, message.header));
 }
 
-void ForceInbox::OnUnreadable(const std::string& topic) {
-  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
-  Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
-}
+void ForceInbox::OnUnreadable(const std::string& topic) { Refuse(topic, Unreadable()); }
 
 bool ForceSubscriptions::AreComplete() const {
   for (const ros::Subscriber& subscriber : subscribers) {

@@ -10,22 +10,12 @@
 
 #include <array>
 #include <string>
-#include <tl/expected.hpp>
 
 #include "core/force_inputs.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/refusal.h"
 
 namespace kinescope::ros_bridge {
-
-struct Refusal {
-  const char* kind;  // from a fixed set; key of the counter
-  std::string text;  // one line with the values
-};
-inline Refusal Unreadable() {
-  return {"unreadable", "a message that is truncated or has a wrong length field"};
-}
-template <class T>
-using Taken = tl::expected<T, Refusal>;
 
 /// Ground reaction force on a foot or on the person; moments are about the origin of the frame, as
 /// in sensors and force plates. The CoP is where its line of action meets the floor, less than 2 m

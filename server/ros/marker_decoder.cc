@@ -63,10 +63,9 @@ void MarkerDecoder::DecodeKept() {
 }
 
 void MarkerDecoder::DecodeMarkers(const RawMessage& raw, bool is_array, DecodedMessage& to) {
-  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
   if (!(is_array ? ros_bridge::Decode(raw.bytes, array_)
                  : ros_bridge::Decode(raw.bytes, marker_))) {
-    to.refusal = {kUnreadable, "a message that " + std::string(kUnreadable)};
+    to.refusal = Unreadable();
     return;
   }
   to.has_single_markers = true;
@@ -82,7 +81,10 @@ void MarkerDecoder::Decode(std::size_t topic, const Event& event, bool has_color
   const RawMessage& raw = *event.getConstMessage();
   const std::string type = Said(event, "md5sum");
   const ShownTopic& shown = topics_[topic];
-  if (has_colors) {
+  if (raw.bytes.empty()) {  // of a larger one roscpp delivers nothing
+    to.refusal = {"too large", fmt::format("a message that is empty, or larger than {} MiB",
+                                           kLargestMessage >> 20U)};
+  } else if (has_colors) {
     to.refusal = shown_.TakeColors(topic, type, raw.bytes);
   } else if (IsSingle(type) || IsArray(type)) {
     DecodeMarkers(raw, IsArray(type), to);

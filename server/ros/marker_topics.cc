@@ -177,14 +177,10 @@ void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
   bool is_first = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    InputCounters& counters = counters_[topics_[topic].name];
-    ++counters.received;
-    is_first = ++counters.refused[refusal.kind] == 1;
-    counters.last_problem = refusal.text;
+    is_first = CountRefused(refusal, counters_[topics_[topic].name]);
   }
   if (is_first && std::string_view(refusal.kind) != kOfKinescope) {
-    spdlog::warn("{}: {} (the next ones are counted: ros.inputs of /api/v1/diagnostics)",
-                 topics_[topic].name, PrintableLine(refusal.text));
+    WarnOfRefused(topics_[topic].name, refusal);
   }
 }
 
@@ -242,15 +238,16 @@ std::vector<const RobotFrames*> MarkerInbox::Robots() const {
 
 bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
   if (!frames_) return false;
-  const auto list = [this] {
-    std::vector<TreeFrame> all = tf_->frames();
-    all.push_back({frame_->name(), "", 0});
+  const auto list = [this](const ShownFrames::TakeFrame& take) {
+    for (const auto& [name, frame] : tf_->frames()) take(frame);
+    if (tf_->frames().count(frame_->name()) == 0) take({frame_->name(), "", 0});
     for (const auto& [character, body] : bodies_) {
       for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-        all.push_back({urdf::LinkName(body.model, segment), frame_->name(), body.now.stamp_nanos});
+        const std::string link = urdf::LinkName(body.model, segment);
+        if (tf_->frames().count(link) > 0) continue;
+        take({link, frame_->name(), body.now.stamp_nanos});
       }
     }
-    return all;
   };
   const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
   const bool has_changed = frames_->Update(monotonic_nanos, list, find_now);

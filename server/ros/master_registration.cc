@@ -51,7 +51,6 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr std::uint32_t kMarkQueue = 100;
-constexpr char kUnreadable[] = "is truncated or has a wrong length field";
 constexpr char kDescription[] = "robot_description";
 // A stream may change the body with every sample. Each one that is described has its meshes
 // written, so the newest one follows after this time.
@@ -277,6 +276,7 @@ bool MasterRegistration::MasterKnowsUs(bool& answers) {
 }
 
 void MasterRegistration::Start() {
+  WarnOfNamesake();
   node_ = std::make_unique<ros::NodeHandle>("~");
   auto topics = Advertise("");
   std::shared_ptr<RosCameraTopics> view;
@@ -419,8 +419,11 @@ void MasterRegistration::ReadRobots() {
     MasterReply set = master_.Call("getParam", arguments);
     if (!set.problem.empty()) wiring_.robots->SetProblem(i, set.problem);
     if (set.code == MasterReply::Code::kNoAnswer) return;
-    const bool is_text =
-        set.code == MasterReply::Code::kGood && set.value.getType() == XmlRpcValue::TypeString;
+    const bool is_set = set.code == MasterReply::Code::kGood;
+    const bool is_text = is_set && set.value.getType() == XmlRpcValue::TypeString;
+    if (is_set && !is_text) {
+      wiring_.robots->SetProblem(i, "the parameter is no text; expected a URDF");
+    }
     wiring_.robots->SetDescription(
         i, is_text ? std::optional(static_cast<std::string&>(set.value)) : std::nullopt);
   }
@@ -454,7 +457,7 @@ ros::Subscriber MasterRegistration::SubscribeMarks() {
   auto options = ros::SubscribeOptions::create<Heard>(
       "mark", kMarkQueue,
       [this](const boost::shared_ptr<const Heard>& heard) {
-        if (!heard->is_sound) return CountRefused("mark", kUnreadable);
+        if (!heard->is_sound) return Refuse("mark", Unreadable());
         wiring_.on_mark(heard->message.data);
       },
       ros::VoidConstPtr(), wiring_.queue);
@@ -468,19 +471,21 @@ ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool 
       topic, kSampleQueue, [this, topic, is_static](const Event& event) {
         const BoundedMessage<tf2_msgs::TFMessage>& bounded = *event.getConstMessage();
         if (event.getPublisherName() == ros::this_node::getName()) return;
-        if (!bounded.is_sound) return CountRefused(topic, kUnreadable);
-        const int refused = wiring_.on_transforms(bounded.message, is_static);
-        if (refused > 0) CountRefused(topic, "has a transform that is invalid or too old");
+        if (!bounded.is_sound) return Refuse(topic, Unreadable());
+        const auto refusal = wiring_.on_transforms(bounded.message, is_static);
+        if (refusal) Refuse(topic, *refusal);
       });
   options.callback_queue = wiring_.queue;
   return node_->subscribe(options);
 }
 
-void MasterRegistration::CountRefused(const char* topic, const char* kind) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = status_.inputs[topic];
-  ++counters.received;
-  ++counters.refused[kind];
+void MasterRegistration::Refuse(const char* topic, const Refusal& refusal) {
+  bool is_first = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_first = CountRefused(refusal, status_.inputs[topic]);
+  }
+  if (is_first) WarnOfRefused(topic, refusal);
 }
 
 // roscpp registers a topic when it is advertised, and never again. So topics are registered at

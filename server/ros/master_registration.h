@@ -31,6 +31,7 @@
 #include "server/ros/master_client.h"
 #include "server/ros/node_topics.h"
 #include "server/ros/order_services.h"
+#include "server/ros/refusal.h"
 #include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/running.h"
@@ -55,8 +56,8 @@ struct SensorTopics {
 struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // must outlive the registration
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
-  /// Of other nodes; returns how many transforms it refuses.
-  std::function<int(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
+  /// Of other nodes; returns why it does not use one of them.
+  std::function<std::optional<Refusal>(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
   std::shared_ptr<MarkerListener> markers;               // null: no marker topics
   std::shared_ptr<RobotInbox> robots;                    // null: no robots
   std::function<void(const std::string& text)> on_mark;  // of `~mark`
@@ -124,7 +125,7 @@ class MasterRegistration {
   void OfferOrders();
   ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
-  void CountRefused(const char* topic, const char* kind);  // on the thread of the queue
+  void Refuse(const char* topic, const Refusal& refusal);  // on the thread of the queue
   enum class Latch { kNo, kYes };  // whether who subscribes later hears the last message
   template <class Message>
   ros::Publisher Topic(const std::string& name, Latch latch = Latch::kNo);

@@ -1,5 +1,9 @@
 #include "server/ros/running.h"
 
+#include <ros/init.h>
+#include <ros/this_node.h>
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 #include <set>
 
@@ -86,6 +90,15 @@ std::vector<RunningNode> FindRunningNodes() {
     if (!found.people.empty() && DoesNodeAnswer(node, kAnswerPatience)) nodes.push_back(found);
   }
   return nodes;
+}
+
+void WarnOfNamesake() {
+  if (ros::isStarted()) return;  // a source of this node has looked
+  if (!DoesNodeAnswer(ros::this_node::getName(), kAnswerPatience)) return;
+  spdlog::warn(
+      "another node is named {}: the ROS master ends it now; to have both, start one with another "
+      "name, such as __name:=kinescope_2",
+      ros::this_node::getName());
 }
 
 }  // namespace kinescope::ros_bridge

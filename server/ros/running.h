@@ -26,4 +26,8 @@ struct RunningNode {
 /// @throws UsageError without a master, or in a build without ROS.
 std::vector<RunningNode> FindRunningNodes();
 
+/// Of a node with the name of this one, which the master ends once this one registers: it may be
+/// the one that was wanted. Asks for half a second at most; call it before that.
+void WarnOfNamesake();
+
 }  // namespace kinescope::ros_bridge

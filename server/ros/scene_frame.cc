@@ -10,21 +10,20 @@
 
 namespace kinescope::ros_bridge {
 
-std::string RootOf(const std::vector<TreeFrame>& frames, const std::string& near) {
-  std::map<std::string, std::string> parents;
-  for (const TreeFrame& frame : frames) parents[frame.name] = frame.parent;
+std::string RootOf(const std::unordered_map<std::string, TreeFrame>& frames,
+                   const std::string& near) {
   const auto root_of = [&](std::string frame) {
     // A loop ends where it has been gone through.
     for (std::size_t i = 0; i < frames.size(); ++i) {
-      const auto found = parents.find(frame);
-      if (found == parents.end() || found->second.empty()) break;
-      frame = found->second;
+      const auto found = frames.find(frame);
+      if (found == frames.end() || found->second.parent.empty()) break;
+      frame = found->second.parent;
     }
     return frame;
   };
-  if (parents.count(near) != 0) return root_of(near);
+  if (frames.count(near) != 0) return root_of(near);
   std::map<std::string, int> sizes;
-  for (const TreeFrame& frame : frames) ++sizes[root_of(frame.name)];
+  for (const auto& [name, frame] : frames) ++sizes[root_of(name)];
   const auto largest = std::max_element(
       sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return largest == sizes.end() ? "" : largest->first;

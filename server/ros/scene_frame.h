@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
+#include <unordered_map>
 
 #include "server/ros/force_frames.h"
 
@@ -12,7 +12,8 @@ namespace kinescope::ros_bridge {
 
 /// The root of the tree that `near` is part of; without such a frame that of the tree with most
 /// frames. "": there are no frames.
-[[nodiscard]] std::string RootOf(const std::vector<TreeFrame>& frames, const std::string& near);
+[[nodiscard]] std::string RootOf(const std::unordered_map<std::string, TreeFrame>& frames,
+                                 const std::string& near);
 
 /// Of a graph, whose frames come one after another.
 class SceneFrame {

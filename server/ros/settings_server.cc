@@ -11,6 +11,7 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr std::int64_t kLookEvery = kNanosPerSecond;
+constexpr std::int64_t kSettles = kNanosPerSecond;  // what was ordered, one after the other
 
 template <class Value>
 void TakeIfChanged(const Value& before, const Value& now, Value& to) {
@@ -43,6 +44,7 @@ void SettingsServer::Look() {
     descriptions_.publish(DescribeSettings(*now, settings_.cameras));
     return Publish();
   }
+  if (*now != current_ && MonotonicNanos() < settled_nanos_) return;
   const LiveSettings before = *seen_, old = current_;
   TakeIfChanged(before.class_limits, now->class_limits, current_.class_limits);
   TakeIfChanged(before.mass_kg, now->mass_kg, current_.mass_kg);
@@ -55,7 +57,8 @@ void SettingsServer::Look() {
 
 void SettingsServer::Publish() { updates_.publish(ToConfig(current_)); }
 
-// An order takes effect with one of the next samples, so what was ordered is the answer.
+// An order takes effect with one of the next samples, so what was ordered is the answer, also of an
+// order that follows at once.
 dynamic_reconfigure::Config SettingsServer::Set(const dynamic_reconfigure::Config& config) {
   Look();
   if (!seen_) return {};
@@ -63,6 +66,7 @@ dynamic_reconfigure::Config SettingsServer::Set(const dynamic_reconfigure::Confi
   const auto order = [&](const SettingsChange& change) {
     const RosAnswer answer = settings_.change(change);
     if (!answer.is_done) wanted.refused.push_back(answer.text);
+    if (answer.is_done) settled_nanos_ = MonotonicNanos() + kSettles;
     return answer.is_done;
   };
   const SettingsChange& change = wanted.change;

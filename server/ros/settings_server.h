@@ -35,6 +35,7 @@ class SettingsServer {
   const RosSettings settings_;
   const ros::Publisher descriptions_, updates_;
   std::int64_t due_nanos_ = 0;
+  std::int64_t settled_nanos_ = 0;    // until then orders take effect
   std::optional<LiveSettings> seen_;  // when it was last looked
   LiveSettings current_;              // with what was ordered since. @pre seen_
 };

@@ -27,6 +27,7 @@ constexpr int kSidesOfHead = 8;
 constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
 constexpr double kFarthest = kFarthestMarker / 2;
 constexpr std::size_t kMostNamed = 8;
+constexpr double kSilentSecs = 2;  // after that a frame is no longer heard of
 
 std::shared_ptr<SceneMarker> EmptyMarker(int id, MarkerType type) {
   auto marker = std::make_shared<SceneMarker>();
@@ -83,35 +84,47 @@ bool ShownFrames::Update(std::int64_t now_nanos, const ListFrames& list, const F
     seen_.clear();
     lost_.clear();
   }
-  std::map<std::string, TreeFrame> tree;
-  for (TreeFrame& frame : list()) {
-    Seen& seen = seen_.try_emplace(frame.name, Seen{frame.newest_nanos, now_nanos}).first->second;
-    if (seen.newest_nanos != frame.newest_nanos) seen = {frame.newest_nanos, now_nanos};
-    tree.try_emplace(frame.name, std::move(frame));
+  list([&](const TreeFrame& frame) {
+    const auto [place, is_new] = seen_.try_emplace(frame.name);
+    Seen& seen = place->second;
+    if (is_new || seen.newest_nanos != frame.newest_nanos) seen.since_nanos = now_nanos;
+    if (seen.parent != frame.parent) seen.parent = frame.parent;
+    seen.newest_nanos = frame.newest_nanos;
+    seen.listed_nanos = now_nanos;
+  });
+  std::vector<const Frame*> frames;
+  for (const Frame& frame : seen_) {
+    const Seen& seen = frame.second;
+    if (seen.listed_nanos == now_nanos && OwnAgeOf(seen, now_nanos) < style_.frames.timeout_secs) {
+      frames.push_back(&frame);
+    }
   }
-  std::vector<Shown> shown = Place(tree, find, now_nanos);
+  std::sort(frames.begin(), frames.end(), [](auto* a, auto* b) { return a->first < b->first; });
+  std::vector<Shown> shown = Place(frames, find, now_nanos);
   if (shown == shown_) return false;
   shown_ = std::move(shown);
   Draw();
   return true;
 }
 
-// Of the frame, or of any that it hangs on, s; 0: it always holds.
-double ShownFrames::AgeOf(const std::string& frame, const std::map<std::string, TreeFrame>& tree,
-                          std::int64_t now_nanos) const {
-  double age = 0;
-  auto found = tree.find(frame);
-  for (int i = 0; i < kDeepest && found != tree.end(); ++i) {
-    const Seen& seen = seen_.at(found->first);
-    if (seen.newest_nanos != 0) age = std::max(age, Secs(now_nanos - seen.since_nanos));
-    found = tree.find(found->second.parent);
+double ShownFrames::OwnAgeOf(const Seen& frame, std::int64_t now_nanos) {
+  return frame.newest_nanos == 0 ? 0 : Secs(now_nanos - frame.since_nanos);
+}
+
+double ShownFrames::AgeOf(const Seen& frame, std::int64_t now_nanos) const {
+  double age = OwnAgeOf(frame, now_nanos);
+  auto parent = seen_.find(frame.parent);
+  for (int i = 0; i < kDeepest && parent != seen_.end(); ++i) {
+    if (parent->second.listed_nanos != now_nanos) break;
+    age = std::max(age, OwnAgeOf(parent->second, now_nanos));
+    parent = seen_.find(parent->second.parent);
   }
   return age;
 }
 
-std::vector<ShownFrames::Shown> ShownFrames::Place(const std::map<std::string, TreeFrame>& tree,
+std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame*>& frames,
                                                    const FindFrame& find, std::int64_t now_nanos) {
-  const FramesStyle& frames = style_.frames;
+  const FramesStyle& style = style_.frames;
   std::map<std::string, std::optional<urdf::Pose>> places;  // most frames are parents, too
   const auto find_near = [&](const std::string& name) {
     const auto [place, is_new] = places.try_emplace(name);
@@ -122,25 +135,28 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::map<std::string, T
     return place->second;
   };
   std::vector<Shown> all;
-  for (const auto& [name, frame] : tree) {
+  std::map<std::string, std::int64_t> lost;
+  for (const Frame* const each : frames) {
+    const auto& [name, frame] = *each;
     if (all.size() == kMostShownFrames) break;
-    if (std::find(frames.hidden.begin(), frames.hidden.end(), name) != frames.hidden.end())
-      continue;
-    const double age = AgeOf(name, tree, now_nanos) / frames.timeout_secs;
+    if (std::find(style.hidden.begin(), style.hidden.end(), name) != style.hidden.end()) continue;
+    const double age_secs = AgeOf(frame, now_nanos), age = age_secs / style.timeout_secs;
     if (age >= 1) continue;
     const std::optional<urdf::Pose> pose = find_near(name);
     if (!pose) {
-      if (lost_.size() < kMostShownFrames) lost_.try_emplace(name, now_nanos);
+      const auto before = lost_.find(name);
+      const bool is_heard_of = age_secs < kSilentSecs && lost.size() < kMostShownFrames;
+      if (is_heard_of) lost[name] = before == lost_.end() ? now_nanos : before->second;
       continue;
     }
-    lost_.erase(name);
     Shown shown{
         name, *pose, {}, std::clamp(3 * age - 1, 0.0, 1.0), std::clamp(3 - 3 * age, 0.0, 1.0)};
     const auto parent =
-        frames.has_arrows && !frame.parent.empty() ? find_near(frame.parent) : std::nullopt;
+        style.has_arrows && !frame.parent.empty() ? find_near(frame.parent) : std::nullopt;
     if (parent) shown.parent = parent->position;
     all.push_back(std::move(shown));
   }
+  lost_ = std::move(lost);
   return all;
 }
 

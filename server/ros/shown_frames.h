@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/graph_view.h"
@@ -21,7 +23,9 @@ inline constexpr std::size_t kMostShownFrames = 500;
 
 class ShownFrames {
  public:
-  using ListFrames = std::function<std::vector<TreeFrame>()>;
+  using TakeFrame = std::function<void(const TreeFrame&)>;
+  /// Gives all frames there are.
+  using ListFrames = std::function<void(const TakeFrame& take)>;
   /// Where a frame is now, in the frame of the scene.
   using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
 
@@ -36,15 +40,18 @@ class ShownFrames {
   /// Axes, shafts and heads of all arrows, then the names, in the frame of the scene.
   const MarkerList& markers() const { return markers_; }
 
-  /// "frames without a way to that of the scene: a, b": those that have had none for a second, each
-  /// once; "": no further ones.
+  /// "frames without a way to that of the scene: a, b": those that are heard of and have had
+  /// none for a second, each once; "": no further ones.
   [[nodiscard]] std::string TakeLost();
 
  private:
   struct Seen {
+    std::string parent;
     std::int64_t newest_nanos = 0;  // stamp of its transform; 0: it always holds
     std::int64_t since_nanos = 0;   // the clock of Update
+    std::int64_t listed_nanos = 0;  // then it was there
   };
+  using Frame = std::pair<const std::string, Seen>;
   struct Shown {
     std::string name;
     urdf::Pose pose;
@@ -53,16 +60,19 @@ class ShownFrames {
     bool operator==(const Shown& other) const;
   };
 
-  double AgeOf(const std::string& frame, const std::map<std::string, TreeFrame>& tree,
-               std::int64_t now_nanos) const;
-  std::vector<Shown> Place(const std::map<std::string, TreeFrame>& tree, const FindFrame& find,
+  /// Since it was last heard of, s.
+  static double OwnAgeOf(const Seen& frame, std::int64_t now_nanos);
+  /// Of it, or of any that it hangs on.
+  double AgeOf(const Seen& frame, std::int64_t now_nanos) const;
+  /// `frames`: those that are not gone, by name.
+  std::vector<Shown> Place(const std::vector<const Frame*>& frames, const FindFrame& find,
                            std::int64_t now_nanos);
   void Draw();
 
   const ShownStyle style_;
   const std::int64_t every_nanos_;
   std::optional<std::int64_t> looked_nanos_;
-  std::map<std::string, Seen> seen_;
+  std::unordered_map<std::string, Seen> seen_;
   std::vector<Shown> shown_;
   MarkerList markers_;
   std::map<std::string, std::int64_t> lost_;  // those without a way, since when

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -72,8 +73,8 @@ std::optional<ros_bridge::RunningNode> Find(const std::string& name, std::string
   return std::nullopt;
 }
 
-// Of launch files: it is started together with the node.
-ros_bridge::RunningNode WaitFor(const std::string& name) {
+// Of launch files: it is started together with the node. nullopt: it was asked to stop.
+std::optional<ros_bridge::RunningNode> WaitFor(const std::string& name) {
   constexpr std::chrono::milliseconds kAskEvery(200);
   std::string why;
   for (bool is_first = true; !StopRequested(); is_first = false) {
@@ -81,7 +82,19 @@ ros_bridge::RunningNode WaitFor(const std::string& name) {
     if (is_first) spdlog::info("waiting: {}", why);
     std::this_thread::sleep_for(kAskEvery);  // the master sends no notice
   }
-  throw UsageError(why);
+  return std::nullopt;
+}
+
+// Qt's words for it are about plug-ins.
+void CheckDisplay() {
+  const auto is_set = [](const char* name) {
+    const char* const text = std::getenv(name);
+    return text != nullptr && *text != '\0';
+  };
+  if (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM")) return;
+  throw UsageError(
+      "RViz needs a display, and DISPLAY is not set: start it on a computer with one, in a session "
+      "of ssh -X, or below xvfb-run; without a display, `kinescope serve` has a page and pictures");
 }
 
 ros_bridge::RunningNode Choose(const std::string& name) {
@@ -144,7 +157,10 @@ Command RvizCommand() {
           "expected --out FILE.rviz, to write a configuration, or --start, to show it");
     }
     if (starts && *values->out == "-") throw UsageError("--out=-: --start needs a file");
-    const ros_bridge::RunningNode node = starts ? WaitFor(*values->node) : Choose(*values->node);
+    if (starts) CheckDisplay();
+    const auto found = starts ? WaitFor(*values->node) : std::optional(Choose(*values->node));
+    if (!found) return 0;
+    const ros_bridge::RunningNode& node = *found;
     const std::string file = values->out->empty() ? KeptFile(node) : *values->out;
     OutputFile out(file);
     out.buffer() = RvizConfig(UsualConfig(), node, *values->view);

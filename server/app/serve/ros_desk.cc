@@ -33,6 +33,13 @@ std::optional<int> FirstCharacter(const RosDesk::Parts& parts) {
   return state->people.front().character;
 }
 
+// Before the first sample.
+bool HasNothing(const std::shared_ptr<const SceneState>& state) {
+  return state == nullptr ||
+         (state->stamp_nanos == 0 && state->people.empty() && state->objects.empty() &&
+          state->robots.empty() && state->markers.empty() && state->images.empty());
+}
+
 // As operators of the page do it: their marks and reports have it.
 Refused ChangeOnPage(const RosDesk::Parts& parts, const SettingsChange& wanted) {
   Refused refused;
@@ -98,6 +105,7 @@ RosAnswer RosDesk::Snapshot() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!parts_) return {false, kNotNow};
   if (parts_->pictures == nullptr) return {false, http::kNoRenderer};
+  if (HasNothing(parts_->states.Get())) return {false, "no sample yet, and nothing else to draw"};
   const recording::Folder& folder = parts_->folder;
   if (const std::string wrong = folder.Prepare(); !wrong.empty()) return {false, wrong};
   try {

@@ -137,6 +137,8 @@ class BagSource : public Source {
   bool ShowsSomething(const BagMessages& all) const;
   /// @throws SourceError unless the bag ends as it should, or is only truncated.
   void CheckEnding(const BagMessages& messages) const;
+  /// Of one whose next record cannot be found.
+  std::string WhyDamaged(const BagMessages& messages) const;
   /// Why nothing of `message` can be used, or null; otherwise it is in message_.
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message);
@@ -313,15 +315,19 @@ std::string BagSource::FindRoot() {
   return RootOf(tf.frames(), "");
 }
 
+std::string BagSource::WhyDamaged(const BagMessages& messages) const {
+  return fmt::format(
+      "bag '{}' is damaged after {} messages ({}), and what follows is not read; `rosbag reindex` "
+      "may repair it",
+      name_, messages.read(), messages.ending().reason);
+}
+
 void BagSource::CheckEnding(const BagMessages& messages) const {
   const BagReader::Ending& ending = messages.ending();
   switch (ending.kind) {
     case BagReader::Ending::Kind::kClosed:
     case BagReader::Ending::Kind::kTruncated: return;
-    case BagReader::Ending::Kind::kDamaged:
-      throw ErrorIn(name_, fmt::format("is damaged after {} messages ({}); `rosbag reindex` may "
-                                       "repair it",
-                                       messages.read(), ending.reason));
+    case BagReader::Ending::Kind::kDamaged: throw SourceError(WhyDamaged(messages));
     case BagReader::Ending::Kind::kUnreadable:
       throw ErrorIn(name_, fmt::format("cannot be read after {} messages ({}); copy it again from "
                                        "its origin",
@@ -359,8 +365,13 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
 Source::State BagSource::End() {
   has_ended_ = true;
   people_.End(counters_);
+  const BagReader::Ending& ending = messages_.ending();
+  if (ending.kind == BagReader::Ending::Kind::kDamaged && messages_.read() > 0) {
+    spdlog::warn("{}", WhyDamaged(messages_));
+    return State::kEnded;
+  }
   CheckEnding(messages_);
-  if (messages_.ending().kind == BagReader::Ending::Kind::kTruncated) {
+  if (ending.kind == BagReader::Ending::Kind::kTruncated) {
     spdlog::warn(
         "bag '{}' was not closed or is truncated (the recorder was probably killed); {} complete "
         "messages were read",
@@ -381,7 +392,7 @@ void BagSource::Take(const BagMessage& message) {
     return;
   }
   const bool is_static = IsStatic(message.connection->topic);
-  surroundings_.AddTransforms(message_, is_static);
+  surroundings_.AddTransforms(message_, message.connection->topic, is_static);
   if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {

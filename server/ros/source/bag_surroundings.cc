@@ -242,10 +242,13 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
   }
 }
 
-void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
+void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, const std::string& topic,
+                                    bool is_static) {
   const bool is_used = has_markers_ || has_scenes_on_images_ || !robots_.empty() ||
                        camera_frame_.is_wanted() || frames_ || is_static;
-  if (is_used) tf_.Add(message, is_static);
+  const auto refusal = is_used ? tf_.Add(message, is_static) : std::nullopt;
+  const bool is_first = refusal && refused_transforms_.insert(refusal->kind).second;
+  if (is_first) rejected_.insert(WithSlash(topic) + ": " + refusal->text);
 }
 
 std::vector<const RobotFrames*> BagSurroundings::Frames() const {
@@ -285,10 +288,9 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   const bool has_new_images = images_.TakeChanged();
   const auto find_now = [&find](const std::string& frame) { return find(frame, 0); };
   const bool has_new_base = camera_frame_.Update(now_nanos, find_now);
-  const auto list = [&] {
-    std::vector<TreeFrame> frames = tf_.frames();
-    frames.push_back({world, "", 0});
-    return frames;
+  const auto list = [&](const ShownFrames::TakeFrame& take) {
+    for (const auto& [name, frame] : tf_.frames()) take(frame);
+    if (tf_.frames().count(world) == 0) take({world, "", 0});
   };
   const bool has_new_frames = frames_ && frames_->Update(now_nanos, list, find_now);
   if (has_moved || has_new_markers || has_new_images || has_new_base || has_new_frames) {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/source.h"
@@ -52,7 +53,7 @@ class BagSurroundings {
   /// Kinescope itself published, which a scene draws by itself, in `ignored`. @pre IsUsed()
   void Take(const BagMessage& message, SourceCounters& counters);
   /// Remembers frames; before there is something to place the static ones alone.
-  void AddTransforms(const tf2_msgs::TFMessage& message, bool is_static);
+  void AddTransforms(const tf2_msgs::TFMessage& message, const std::string& topic, bool is_static);
   /// Delivers all to `sink` if something has changed at `now_nanos` (of the bag). `world`: the
   /// frame of the scene. Warns once of each frame that is not there.
   void Update(std::int64_t now_nanos, const std::string& world, const std::string& bag,
@@ -107,10 +108,11 @@ class BagSurroundings {
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;
   TfTree tf_;
-  std::map<std::string, std::size_t> topics_;  // their numbers
-  std::set<std::string> lost_frames_;          // that were warned of
-  std::set<std::string> heard_topics_;         // those that a message came on
-  std::set<std::string> rejected_;             // "/cloud: <why>"
+  std::map<std::string, std::size_t> topics_;      // their numbers
+  std::set<std::string> lost_frames_;              // that were warned of
+  std::set<std::string> heard_topics_;             // those that a message came on
+  std::set<std::string> rejected_;                 // "/cloud: <why>"
+  std::set<std::string_view> refused_transforms_;  // kinds of which rejected_ has one
   visualization_msgs::Marker marker_;
   visualization_msgs::MarkerArray array_;
 };

@@ -5,6 +5,7 @@
 #include <ros/this_node.h>
 #include <ros/time.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <map>
@@ -15,6 +16,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "core/system/utf8.h"
 #include "core/system/wall_offset.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
@@ -179,7 +181,9 @@ class GraphSource : public Source {
       for (auto& transform : transforms_.transforms) Shift(transform.header.stamp, shift);
       return Take([&](SampleSink& sink) {
         const bool has_person = people_.Take(transforms_, now, counters_, sink);
-        if (has_person) OnPerson(event, stamp, now);
+        if (!has_person) return;
+        OnPerson(event, stamp, now);
+        NoteSender(event.getPublisherName(), now.monotonic_nanos);
       });
     }
     if (sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>()) {
@@ -223,6 +227,27 @@ class GraphSource : public Source {
     if (stamp == 0 || ros::Time::isSimTime()) return;
     clocks_.OnPerson(event.getPublisherName(), stamp, now.stamp_nanos);
   }
+  // Of a person: two nodes that send the same frames look like one who jumps. A node may end, and
+  // another one take over.
+  void NoteSender(const std::string& node, std::int64_t now) {
+    constexpr std::size_t kMost = 64;
+    constexpr int kSwaps = 4;
+    if (transforms_.transforms.empty()) return;
+    const std::string& frame = transforms_.transforms.front().child_frame_id;
+    if (senders_.size() >= kMost && senders_.count(frame) == 0) return;
+    Sender& sender = senders_[frame];
+    const bool is_other = sender.seen_nanos != 0 && sender.node != node;
+    sender.swaps =
+        now - sender.seen_nanos < kNanosPerSecond ? sender.swaps + (is_other ? 1 : 0) : 0;
+    if (is_other && sender.swaps == kSwaps) {
+      spdlog::warn(
+          "two nodes, {} and {}, send the frames of one person ('{}'): who is shown jumps between "
+          "them; give one of them another --model_name",
+          sender.node, node, PrintableLine(frame.substr(0, kLongestTypeName)));
+    }
+    sender.node = node;
+    sender.seen_nanos = now;
+  }
   static void Shift(ros::Time& stamp, std::int64_t nanos) {
     if (nanos != 0 && !stamp.isZero()) stamp = ToRosTime(ToNanos(stamp) + nanos);
   }
@@ -250,6 +275,12 @@ class GraphSource : public Source {
   std::uint64_t clock_steps_ = 0;       // times that it was set
   RosClock clock_;                      // without a time unless it is simulated
   std::map<int, std::int64_t> newest_;  // stamps, by character; if it is
+  struct Sender {
+    std::string node;
+    std::int64_t seen_nanos = 0;  // monotonic clock
+    int swaps = 0;                // of nodes, in a row
+  };
+  std::map<std::string, Sender> senders_;  // by the first frame of a message
   PublisherClocks clocks_;
   TransformPeople people_;
   LinkStatesPerson link_states_;

@@ -96,6 +96,31 @@ TEST(RvizFile, HidesWhatNoDisplayShows) {
   EXPECT_EQ(settings.count("show"), 0U);
 }
 
+TEST(RvizFile, ShowsLoadsOnlyWhereADisplayHasOurMarkers) {
+  const auto hidden = [](const std::string& more) {
+    return SettingsOf(ReadText(
+        WithDisplays("    - {Class: rviz/MarkerArray, Enabled: true, " + more + "}\n")))["hide"];
+  };
+  const std::string all = "shadows,body,loads,com,cop,support,forces,hand_loads";
+  EXPECT_EQ(hidden("Marker Topic: /city"), all);
+  EXPECT_EQ(hidden("Marker Topic: /city, Namespaces: {walls: true}"), all);
+  EXPECT_EQ(hidden("Marker Topic: /kinescope/markers"), "shadows,body");
+  EXPECT_EQ(hidden("Marker Topic: /lab/anna/markers, Namespaces: {loads: false}"),
+            "shadows,body,loads");
+  EXPECT_EQ(hidden("Marker Topic: /renamed, Namespaces: {com: false}"), "shadows,body,com");
+}
+
+TEST(RvizFile, SaysThatNoPersonIsSeen) {
+  const auto remarks = [](const std::string& displays) {
+    return ReadText(WithDisplays(displays)).remarks;
+  };
+  EXPECT_THAT(remarks("    - {Class: rviz/Grid, Enabled: true}\n"),
+              ElementsAre(HasSubstr("no display that is on shows people")));
+  EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true, Name: Me, Alpha: abc}\n"),
+              ElementsAre(HasSubstr("'Me': Alpha is 0: it is not seen")));
+  EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true}\n"), ElementsAre());
+}
+
 TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
   const RvizPicture picture = ReadText(
       WithDisplays("    - {Class: rviz/Path, Enabled: true, Name: Plan}\n"

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """What launch files promise, by roslaunch's own reading of them.
 launch_files_test.py FOLDER: in a shell that has the devel space (ROS_PACKAGE_PATH)."""
+import os
 import pathlib
 import sys
 import unittest
+import unittest.mock
 
 import roslaunch.config
+import roslaunch.core
 import roslaunch.xmlloader
 
 FOLDER = pathlib.Path(sys.argv.pop())
@@ -54,6 +57,21 @@ class LaunchFiles(unittest.TestCase):
             self.assertIn(f'-e "{wanted}/(.*/)?(', record.args)
             rviz = load("rviz.launch", node=node).nodes[0]
             self.assertEqual(rviz.args.split()[-2:], ["--node", wanted])
+
+        self.assertEqual(load("bridge.launch", node="/lab").nodes[0].name, "lab")
+
+    def test_paths_are_those_of_the_shell(self):
+        with unittest.mock.patch.dict(os.environ, PWD="/here", HOME="/home/me"):
+            for given, wanted in (("/a/b", "/a/b"), ("b", "/here/b"), ("~/b", "/home/me/b")):
+                self.assertIn(f"-o {wanted} ", load("record.launch", bag=given).nodes[0].args)
+                for name, node in (("kinescope.launch", "kinescope"), ("monitor.launch", "kinescope_monitor")):
+                    self.assertEqual(load(name, token_file=given).params[f"/{node}/token_file"].value, wanted)
+            self.assertEqual(load("kinescope.launch").params["/kinescope/token_file"].value, "")
+
+    def test_refuse_what_is_neither_true_nor_false(self):
+        for name, argument in (("kinescope.launch", "rviz"), ("demo.launch", "rviz"), ("xsens_client.launch", "launch_rviz")):
+            with self.assertRaisesRegex(roslaunch.core.RLException, "maybe"):
+                load(name, **{argument: "maybe"})
 
 
 if __name__ == "__main__":

@@ -31,10 +31,8 @@ class ShownFramesTest : public ::testing::Test {
   bool UpdateAt(double secs) {
     return frames_->Update(
         static_cast<std::int64_t>(secs * kNanosPerSecond),
-        [&] {
-          std::vector<TreeFrame> all;
-          for (const auto& [name, frame] : tree_) all.push_back(frame);
-          return all;
+        [&](const ShownFrames::TakeFrame& take) {
+          for (const auto& [name, frame] : tree_) take(frame);
         },
         [&](const std::string& name) -> std::optional<urdf::Pose> {
           const auto found = places_.find(name);
@@ -161,6 +159,17 @@ TEST_F(ShownFramesTest, WithoutAWayAreNamedOnceIfItDoesNotCome) {
   EXPECT_EQ(frames_->TakeLost(), "frames without a way to that of the scene: lost");
   UpdateAt(2.2);
   EXPECT_EQ(frames_->TakeLost(), "");
+}
+
+// TF knows them for ten seconds, by times of which the others have no more.
+TEST_F(ShownFramesTest, ThatAreNotHeardOfAnyMoreAreNotNamed) {
+  Set("world", "", {0, 0, 0});
+  Set("cart", "world", {2, 0, 0}, 100);
+  UpdateAt(0);
+  places_.erase("cart");
+  for (const double secs : {10.0, 11.5}) UpdateAt(secs);
+  EXPECT_EQ(frames_->TakeLost(), "");
+  EXPECT_THAT(Names(), ElementsAre("world"));
 }
 
 TEST_F(ShownFramesTest, AreBoundedAndFarOnesAreLeftOut) {

@@ -142,6 +142,17 @@ TEST_F(NewsOverRos, WarnsOfASecondNodeWithTheSameFrames) {
   EXPECT_THAT(WaitForLine(*second, "the node "),
               AllOf(HasSubstr("/one publishes the frames of a person called skeleton"),
                     HasSubstr("--model_name")));
+  const auto inspect = Start("inspect ros: --seconds 20 __name:=four");
+  EXPECT_THAT(WaitForLine(*inspect, "two nodes, "),
+              AllOf(HasSubstr("/one"), HasSubstr("/three"), HasSubstr("--model_name")));
+}
+
+TEST_F(NewsOverRos, SaysWhichNodeEndsBecauseOfItsName) {
+  const auto first = Start("bridge demo:lift --ros required __name:=one");
+  WaitForParameter("/one/published/reference_frame");
+  const auto second = Start("bridge demo:walk --ros required __name:=one");
+  EXPECT_THAT(WaitForLine(*second, "another node is named /one"), HasSubstr("__name:="));
+  WaitForLine(*first, "another node with the same name");
 }
 
 // The master still has its topics and its parameters.
@@ -166,9 +177,10 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
   visualization_msgs::Marker wall;
   wall.ns = "walls";
   wall.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
+  ros::param::set("/number", 42);
   const auto server = Start(
       "serve demo:lift --ros required --http_port 0 --pictures off --marker_topics /wolls,/walls "
-      "--robot ros:panda");
+      "--robot ros:panda --robot ros:number");
   const std::string page = WaitForLine(*server, "page at ");
   ASSERT_TRUE(Spin([&] { return walls.getNumSubscribers() > 0; }));
   walls.publish(wall);
@@ -180,11 +192,14 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
   walls.publish(wall);
   WaitForLine(*server, "no publisher of /wolls (--marker_topics)");
   WaitForLine(*server, "/panda: the parameter is not set");
-  const auto not_shown = [&] {
+  const auto diagnostics = [&] {
     const auto answer =
         testing::RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out;
-    return nlohmann::json::parse(answer)["ros"]["not_shown"];
+    return nlohmann::json::parse(answer)["ros"];
   };
+  EXPECT_EQ(diagnostics()["inputs"]["robot /number"]["last_problem"],
+            "the parameter is no text; expected a URDF");
+  const auto not_shown = [&] { return diagnostics()["not_shown"]; };
   const std::string wolls = "/wolls: no node publishes it";
   const std::string lidar = "/walls: marker walls/0: frame 'lidar' is not known yet";
   EXPECT_TRUE(Spin([&] { return not_shown() == nlohmann::json{wolls, lidar}; })) << not_shown();
@@ -192,6 +207,10 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
   place.transforms.resize(1);
   place.transforms[0].header.frame_id = "world";
   place.transforms[0].child_frame_id = "lidar";
+  place.transforms[0].transform.rotation.w = std::numeric_limits<double>::quiet_NaN();
+  const ros::Publisher moving = node_->advertise<tf2_msgs::TFMessage>("/tf", 1, true);
+  moving.publish(place);
+  WaitForLine(*server, "/tf: a transform with a number that is not finite: 'lidar' in 'world'");
   place.transforms[0].transform.rotation.w = 1;
   const ros::Publisher places = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   places.publish(place);

@@ -63,6 +63,15 @@ TEST_F(OrdersOverRos, MakeASnapshotInTheFolderOfRecordingsAlsoAfterARestartOfThe
   EXPECT_NE(second.message, first.message);
 }
 
+TEST_F(OrdersOverRos, MakeNoSnapshotOfNothing) {
+  program_ = Start("serve udp://127.0.0.1:0 --ros required --http_port 0 --recordings_folder " +
+                   folder_.path().string());
+  WaitForAddress(*program_);
+  const auto answer = Call<std_srvs::Trigger>("snapshot");
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("no sample yet"));
+}
+
 TEST_F(OrdersOverRos, StartAndStopARecordingAndLeaveAMark) {
   StartServe("--pictures off");
   EXPECT_THAT(Record(false).message, HasSubstr("nothing is recorded now"));

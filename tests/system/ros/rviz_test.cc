@@ -298,6 +298,18 @@ TEST_F(RViz, ShowsTheExportedPersonIdentically) {
   ExpectTheSamePicture(xml, positions, {{0, 0, -0.1}, 2.6, 0.6, 0.25});
 }
 
+TEST_F(RViz, IsNotStartedWithoutADisplayAndStopsWaitingQuietly) {
+  const auto nowhere =
+      testing::RunProgram({"/usr/bin/env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "-u",
+                           "QT_QPA_PLATFORM", testing::KinescopePath(), "rviz", "--start"});
+  EXPECT_NE(nowhere.exit_code, 0);
+  EXPECT_THAT(nowhere.err, HasSubstr("DISPLAY is not set"));
+  const auto waiting = Start("rviz --start --node /later");
+  WaitForLine(*waiting, "waiting: ");
+  waiting->Signal(SIGINT);
+  EXPECT_EQ(waiting->WaitForEnd(), 0);
+}
+
 // RViz 1.14 subscribes to the topic of a display that is off, and the server would render for it.
 TEST_F(RViz, DoesNotAskForTheViewUnlessToldTo) {
   const auto program = Start("serve demo:n_pose --ros required --http_port 0");

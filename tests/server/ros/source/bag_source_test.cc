@@ -817,6 +817,18 @@ TEST_P(CompressedBagTest, SkipsAndCountsADamagedChunk) {
       << ::testing::PrintToString(rejected);
 }
 
+// As after a power failure.
+TEST_P(CompressedBagTest, IsReadUpToAnEndOfZeros) {
+  const std::string bag = Bag(WriteInChunks, GetParam());
+  std::string bytes = kinescope::testing::ReadFile(bag);
+  const std::size_t chunk = bytes.find("compression=", bytes.size() / 2);
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(chunk) - 8, bytes.end(), '\0');
+  std::ofstream(bag, std::ios::binary) << bytes;
+  const kinescope::testing::CapturedLog log;
+  EXPECT_GE(ReadBag(bag).samples.size(), 5U);
+  EXPECT_THAT(log.text(), HasSubstr("is damaged after"));
+}
+
 // The length of a chunk's header, of its data, and of the index behind it.
 TEST_P(CompressedBagTest, GoesOnWithTheNextChunkAfterADamagedLength) {
   const std::string bag = Bag(WriteInChunks, GetParam());

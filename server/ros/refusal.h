@@ -1,0 +1,28 @@
+/// Why a message of another node is not used, and how that is counted and told. Any thread; the
+/// counters are guarded by their owner.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+
+#include "server/ros/bridge.h"
+
+namespace kinescope::ros_bridge {
+
+struct Refusal {
+  const char* kind;  // from a fixed set; key of the counter
+  std::string text;  // one line with the values
+};
+inline Refusal Unreadable() {
+  return {"unreadable", "a message that is truncated or has a wrong length field"};
+}
+template <class T>
+using Taken = tl::expected<T, Refusal>;
+
+/// True if it is the first of its kind, which is worth a line in the log.
+[[nodiscard]] bool CountRefused(const Refusal& refusal, InputCounters& counters);
+
+/// That line.
+void WarnOfRefused(const std::string& topic, const Refusal& refusal);
+
+}  // namespace kinescope::ros_bridge
