@@ -66,8 +66,12 @@ TEST_F(OrdersOverRos, MakeASnapshotInTheFolderOfRecordingsAlsoAfterARestartOfThe
 TEST_F(OrdersOverRos, MakeNoSnapshotOfNothing) {
   program_ = Start("serve udp://127.0.0.1:0 --ros required --http_port 0 --recordings_folder " +
                    folder_.path().string());
-  WaitForAddress(*program_);
-  const auto answer = Call<std_srvs::Trigger>("snapshot");
+  WaitForLine(*program_, "page at ");
+  std_srvs::Trigger::Response answer;
+  ASSERT_TRUE(Spin([&] {  // the page is there a little earlier than the orders
+    answer = Call<std_srvs::Trigger>("snapshot");
+    return answer.message.find("is starting") == std::string::npos;
+  }));
   EXPECT_FALSE(answer.success);
   EXPECT_THAT(answer.message, HasSubstr("no sample yet"));
 }
