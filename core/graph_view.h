@@ -2,6 +2,7 @@
 /// appears here.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -73,6 +74,19 @@ struct FramesStyle {
   std::vector<std::string> hidden;
 };
 
+/// A grid of lines about the origin of a frame, as RViz's Grid display has it.
+struct GridStyle {
+  enum class Plane { kXy, kXz, kYz };
+  Plane plane = Plane::kXy;
+  int cells = 10;                            // along each side
+  int layers = 0;                            // of cells across the plane
+  std::array<double, 3> offset = {0, 0, 0};  // of its middle, in the frame, m
+  bool stands_in_scene = false;              // where its frame is not known: in that of the scene
+};
+inline constexpr int kMostGridCells = 1000, kMostGridLayers = 20;
+/// Of one with layers, whose lines are many more.
+inline constexpr int kMostLayeredCells = 100;
+
 /// Of a topic of images.
 struct CameraStyle {
   double scene_opacity = 0;  // of the scene that is drawn over each, as its camera sees it; 0: none
@@ -124,6 +138,7 @@ struct ShownStyle {
   ArrowStyle arrow = {};
   CameraStyle camera = {};
   EarlierMessages earlier = {};
+  GridStyle grid = {};
 };
 
 inline constexpr char kEveryFrame[] = "*";
@@ -135,6 +150,7 @@ struct ShownTopic {
   std::string name;
   ShownStyle style = {};
   bool is_frame = false;  // no topic: a frame of TF whose axes are shown; "": that of the scene
+  bool is_grid = false;   // with is_frame: a grid in it, with cells of `size_m`, in place of axes
   bool leaves_out_others = false;  // no topic: of a bag, markers of topics that are not named are
                                    // not shown
   bool is_every_frame() const { return is_frame && name == kEveryFrame; }

@@ -115,7 +115,9 @@ AlignedBox3d ExtentOf(const std::vector<RobotState>& robots, const MarkerList& m
   std::vector<Vector3d> places;
   const std::size_t most = std::clamp<std::size_t>(
       kMostOfAll / std::max<std::size_t>(1, markers.size()), 2, kMostOfMarker);
-  for (const auto& marker : markers) AddPlaces(*marker, most, places);
+  for (const auto& marker : markers) {
+    if (marker->ns != kNamespaceOfGrids) AddPlaces(*marker, most, places);
+  }
   const auto is_nowhere = [](const Vector3d& place) { return !place.allFinite(); };
   places.erase(std::remove_if(places.begin(), places.end(), is_nowhere), places.end());
   AlignedBox3d box = BoxOf(robots);

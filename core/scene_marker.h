@@ -55,6 +55,8 @@ struct SceneMarker {
 
 /// Of the axes, arrows and names of all frames of TF, which need no legend.
 inline constexpr char kNamespaceOfFrames[] = "tf";
+/// Of grids, which need no legend, and are no part of what a camera frames.
+inline constexpr char kNamespaceOfGrids[] = "rviz/Grid";
 
 /// All that stand in a scene at a time.
 using MarkerList = std::vector<std::shared_ptr<const SceneMarker>>;

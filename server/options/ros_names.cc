@@ -15,6 +15,7 @@
 namespace kinescope::app {
 namespace {
 
+constexpr double kFarthestGrid = 1000;    // m
 constexpr double kLeastPaneWidth = 0.05;  // of an image, of the width of a picture
 
 bool IsName(const std::string& text) {
@@ -161,6 +162,37 @@ bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& fr
   return text == "on" || text == "off";
 }
 
+// "cells=20", "layers=2", "plane=xz", "at=0|0|-0.9", "missing=scene" of a grid.
+bool TakeGrid(const std::string& key, const std::string& text, GridStyle& grid) {
+  if (key == "missing") {
+    grid.stands_in_scene = text == "scene";
+    return grid.stands_in_scene;
+  }
+  if (key == "plane") {
+    using Plane = GridStyle::Plane;
+    grid.plane = text == "xz" ? Plane::kXz : text == "yz" ? Plane::kYz : Plane::kXy;
+    return text == "xy" || text == "xz" || text == "yz";
+  }
+  if (key == "at") {
+    std::size_t begin = 0;
+    for (double& metres : grid.offset) {
+      if (begin > text.size()) return false;
+      const std::size_t end = std::min(text.find('|', begin), text.size());
+      const auto number = options::ParseNumber(text.substr(begin, end - begin));
+      if (!number || std::abs(*number) > kFarthestGrid) return false;
+      metres = *number;
+      begin = end + 1;
+    }
+    return begin == text.size() + 1;
+  }
+  const bool is_cells = key == "cells";
+  const auto number = options::ParseNumber(text);
+  const int most = is_cells ? kMostGridCells : kMostGridLayers;
+  if (!number || *number < (is_cells ? 1 : 0) || *number > most) return false;
+  (is_cells ? grid.cells : grid.layers) = static_cast<int>(*number);
+  return *number == std::floor(*number);
+}
+
 // "scene=0.5", "pane=0.6", "cloud=on", "colors=/camera/image" of images.
 bool TakeCamera(const std::string& key, const std::string& text, CameraStyle& camera) {
   if (key == "colors") {
@@ -233,6 +265,8 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (is_one_of({"axes", "names", "arrows", "text", "timeout"})) {
     return TakeFrames(key, text, style.frames);
   }
+  if (is_one_of({"cells", "layers", "plane", "at", "missing"}))
+    return TakeGrid(key, text, style.grid);
   if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
   if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
     if (!style.scale) style.scale = PointScale{};
@@ -264,10 +298,12 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
   topic.name = text.substr(0, open);
   topic.leaves_out_others = text == kNoOtherTopics;
   if (topic.leaves_out_others) return topic;
-  topic.is_frame = StartsWith(topic.name, kAxesOfFrame);
-  if (topic.is_frame) topic.name.erase(0, std::strlen(kAxesOfFrame));
+  topic.is_grid = StartsWith(topic.name, kGridInFrame);
+  topic.is_frame = topic.is_grid || StartsWith(topic.name, kAxesOfFrame);
+  if (topic.is_frame) topic.name.erase(0, std::strlen(topic.is_grid ? kGridInFrame : kAxesOfFrame));
+  const bool is_every_axis = topic.is_every_frame() && !topic.is_grid;
   const bool is_good = topic.is_frame
-                           ? topic.name.empty() || topic.is_every_frame() || IsFrameName(topic.name)
+                           ? topic.name.empty() || is_every_axis || IsFrameName(topic.name)
                            : IsTopicName(topic.name);
   if (!is_good) return std::nullopt;
   if (open == std::string::npos) return topic;
@@ -279,6 +315,8 @@ std::optional<ShownTopic> ParseTopic(const std::string& text) {
   const std::vector<std::string>& hidden = topic.style.frames.hidden;
   const bool are_names = !topic.is_frame || std::all_of(hidden.begin(), hidden.end(), IsFrameName);
   if (!are_names) return std::nullopt;
+  const GridStyle& grid = topic.style.grid;
+  if (grid.layers > 0 && grid.cells > kMostLayeredCells) return std::nullopt;
   return topic;
 }
 
@@ -317,7 +355,8 @@ void ShownTopicsValue::Parse(const std::string& text) {
 std::string ShownTopicsValue::Expected() const {
   return "up to " + std::to_string(kMostShownTopics) +
          " topics with commas between, such as /walls,/cloud(color=#ff8800,alpha=0.5,size=0.02),"
-         "/goal(shape=axes),/scan(by=z,from=0,to=2) (size in m), or tf:* for all frames of TF";
+         "/goal(shape=axes),/scan(by=z,from=0,to=2) (size in m), tf:* for all frames of TF, or "
+         "grid: for a grid of 10 x 10 m";
 }
 
 }  // namespace kinescope::app

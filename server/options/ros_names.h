@@ -26,6 +26,8 @@ inline constexpr char kTfTopicHelp[] =
     "topic of the transforms of a bag, where people are looked for; default: /tf";
 /// Before the name of a frame among topics: its axes are shown; before kEveryFrame: all frames.
 inline constexpr char kAxesOfFrame[] = "tf:";
+/// The same: a grid in the frame is shown.
+inline constexpr char kGridInFrame[] = "grid:";
 /// Among topics: markers of a bag that come on none of them are not shown.
 inline constexpr char kNoOtherTopics[] = "-*";
 /// A frame, or the prefix of frames: not with / at its beginning.
@@ -36,7 +38,8 @@ inline constexpr char kNoOtherTopics[] = "-*";
 /// a number of theirs: "/scan(by=z,from=0,to=2,low=#000000,high=#ffffff)",
 /// "/c(by=ring,rainbow=inverted,pixels=3)"; arrows of a wrench:
 /// "/push(force=0.002,torque=0,width=0.3)"; axes: "tf:base_link(size=0.5)",
-/// "tf:*(names=off,arrows=off,timeout=5,without=left|right)".
+/// "tf:*(names=off,arrows=off,timeout=5,without=left|right)"; grids:
+/// "grid:(size=0.5,cells=20,layers=2,plane=xz,at=0|0|-0.9,color=#a0a0a4,alpha=0.5,width=0.01)".
 class ShownTopicsValue : public options::ValueOf<std::vector<ShownTopic>> {
  public:
   ShownTopicsValue() : ValueOf({}) {}

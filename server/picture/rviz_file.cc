@@ -30,7 +30,8 @@ using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
-constexpr double kDarkest = 48.0 / 255;          // RViz's own background
+constexpr double kDarkest = 48.0 / 255;  // RViz's own background
+constexpr Rgb kGridColor = {160.0 / 255, 160.0 / 255, 164.0 / 255};
 constexpr double kLeastAhead = 0.1;              // m, from a camera to its target
 constexpr double kWidestHalf = 75 * M_PI / 180;  // rad, of the field of view
 constexpr double kFarthestCamera = 1000;         // m, of a camera
@@ -154,27 +155,67 @@ class RvizReader {
     }
   }
 
+  // Without topics, the floor of the scene takes its place where it lies.
   void ReadGrid(const YAML::Node& display, const std::string& called) {
-    const std::string plane = TextOf(display, "Plane", "XY");
-    if (plane != "XY") {
-      Remark(display, called + " is no floor, and is not drawn: Plane " + plane);
+    const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
+    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
+    const std::string frame = is_fixed ? FixedFrame() : saved;
+    if (!frame.empty() && !IsFrameName(frame)) {
+      Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
       return;
     }
-    has_grid_ = true;
-    const std::string frame = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
-    if (frame != "<Fixed Frame>" && frame != picture_.fixed_frame) {
-      Remark(display, called + ": Reference Frame " + Quoted(frame) + ": the floor is the scene's");
+    const std::string plane = TextOf(display, "Plane", "XY");
+    const bool is_level = plane != "XZ" && plane != "YZ";
+    const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
+    RvizPicture::Topic grid{kGridInFrame + frame,
+                            GridStyleOf(display, called, is_fixed && !frame.empty()), Shown(called),
+                            false, LineOf(display)};
+    if (is_level) {
+      has_floor_ = true;
+      grid.is_floor = true;
+      grid.floor_differs = !is_fixed || !offset.isZero();
     }
-    NameOffset(display, called, "the floor is the scene's");
-    const auto differs = [&](const char* property, double usual) {
-      return rviz::NumberOf(display, property, usual, 0, kFarthestCamera) != usual;
+    picture_.topics.push_back(std::move(grid));
+  }
+
+  // What differs from a grid of ours, which is RViz's usual one.
+  std::string GridStyleOf(const YAML::Node& display, const std::string& called,
+                          bool is_in_fixed_frame) {
+    std::vector<std::string> items;
+    const auto limited = [&](const YAML::Node& of, const char* property, double usual, double least,
+                             double most) {
+      const rviz::Limit limit = rviz::LimitOf(of, property, usual, least, most);
+      if (!limit.remark.empty()) Remark(display, called + ": " + limit.remark);
+      return limit.value;
     };
-    if (differs("Cell Size", 1) || differs("Plane Cell Count", 10) ||
-        differs("Normal Cell Count", 0)) {
-      Remark(display, called +
-                          ": size and number of its cells are not taken: the floor is the "
-                          "scene's");
+    const auto add = [&](const char* key, double value, double usual) {
+      if (value != usual) items.push_back(key + ("=" + options::NumberText(value)));
+    };
+    add("size", limited(display, "Cell Size", 1, kSmallestShown, kLargestShown), 1);
+    const double layers = std::floor(limited(display, "Normal Cell Count", 0, 0, kMostGridLayers));
+    const int most = layers > 0 ? kMostLayeredCells : kMostGridCells;
+    add("cells", std::floor(limited(display, "Plane Cell Count", 10, 1, most)), 10);
+    add("layers", layers, 0);
+    const std::string plane = TextOf(display, "Plane", "XY");
+    if (plane == "XZ" || plane == "YZ") items.push_back(plane == "XZ" ? "plane=xz" : "plane=yz");
+    const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
+    if (offset.cwiseAbs().maxCoeff() > kFarthestCamera) {
+      Remark(display, called + ": its Offset is too far, and is not taken");
+    } else if (!offset.isZero()) {
+      items.push_back(fmt::format("at={}|{}|{}", options::NumberText(offset.x()),
+                                  options::NumberText(offset.y()),
+                                  options::NumberText(offset.z())));
     }
+    if (const auto color = rviz::ColorOf(display, "Color", kGridColor)) {
+      if (*color != kGridColor) items.push_back("color=" + ToHex(*color));
+    }
+    add("alpha", rviz::NumberOf(display, "Alpha", 0.5, 0, 1), 0.5);
+    if (is_in_fixed_frame) items.push_back("missing=scene");  // which need not be there
+    const YAML::Node style = Member(display, "Line Style");
+    if (TextOf(style, "Value", "Lines") == "Billboards") {
+      add("width", limited(style, "Line Width", 0.03, kSmallestShown, kLargestShown), 0);
+    }
+    return items.empty() ? "" : fmt::format("({})", fmt::join(items, ","));
   }
 
   void NameOffset(const YAML::Node& display, const std::string& called, const char* otherwise) {
@@ -300,7 +341,6 @@ class RvizReader {
       Remark(display, called + ": Zoom Factor is not taken: the whole image is shown");
     }
     NameInvisible(Member(display, "Visibility"), display, called);
-    cameras_.emplace_back(display, called);
     const double overlay = rviz::NumberOf(display, "Overlay Alpha", 0.5, 0, 1);
     return "(scene=" + options::NumberText(has_overlay ? 1 - overlay : 1) + ")";
   }
@@ -452,10 +492,7 @@ class RvizReader {
 
   void SetParts(const YAML::Node& manager) {
     const int line = LineOf(manager);
-    for (const auto& [display, called] : cameras_) {
-      if (has_grid_) Remark(display, called + ": the floor is not drawn over its picture");
-    }
-    Set("floor", has_grid_ ? "on" : "off", line);
+    Set("floor", has_floor_ ? "on" : "off", line);
     Set("figure", "urdf", line);
     std::string hidden = "shadows";  // RViz has none
     if (!has_model_) hidden += ",body";
@@ -464,7 +501,10 @@ class RvizReader {
       if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
     }
     Set("hide", hidden, line);
-    if (!has_model_ && shown_parts_.empty() && picture_.topics.empty()) {
+    const bool has_topics = std::any_of(
+        picture_.topics.begin(), picture_.topics.end(),
+        [](const RvizPicture::Topic& topic) { return !StartsWith(topic.name, kGridInFrame); });
+    if (!has_model_ && shown_parts_.empty() && !has_topics) {
       Remark(manager, "no display that is on shows people: of them nothing is drawn");
     }
     if (has_frames_) Set("show", "link_frames", line);  // of a source without TF
@@ -542,10 +582,10 @@ class RvizReader {
   const int height_px_;
   RvizPicture picture_;
   bool has_handles_ = true;  // of interactive markers
-  bool has_grid_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
+  bool has_floor_ = false, has_model_ = false, has_markers_ = false, has_frames_ = false;
   std::set<std::string> shown_parts_;
   // Displays, and what they are called.
-  std::vector<std::pair<YAML::Node, std::string>> cameras_, rings_;
+  std::vector<std::pair<YAML::Node, std::string>> rings_;
 };
 
 template <class Load>

@@ -2,6 +2,7 @@
 /// parts of people. docs/rviz_files.md
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct RvizPicture {
     bool is_marker = false;
     int line = 1;
     bool is_every_frame = false;  // no topic: all frames of TF
+    bool is_floor = false;        // no topic: a level grid, of which the scene's floor takes the
+                                  // place where there are no topics
+    bool floor_differs = false;   // which lies elsewhere
   };
   std::vector<Topic> topics;
   /// A model whose description a ROS graph has; also that of a person.

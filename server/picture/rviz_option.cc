@@ -75,7 +75,11 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
-      if (topic.is_every_frame) {
+      if (topic.is_floor) {
+        spdlog::log(topic.floor_differs ? spdlog::level::warn : spdlog::level::info,
+                    "{}{} is drawn as the floor of the scene: the source has no topics", place,
+                    topic.display);
+      } else if (topic.is_every_frame) {
         spdlog::warn(
             "{}{}: of frames, only the axes of people's links are drawn: the source has no "
             "TF (a bag has, and serve with ROS)",
@@ -167,6 +171,8 @@ class Frames {
 
   void Warn(bool is_in_fixed) {
     if (picture_.fixed_frame == kUsual) return;
+    // With topics a picture has grids in place of the floor.
+    if (is_in_fixed && HasTopics(list_) && list_.Find("floor") != nullptr) return;
     const std::string what =
         is_in_fixed ? "the camera stands in it, the floor is that of" : "the scene is drawn in";
     // That of a bag is known once it is read.
@@ -194,6 +200,9 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   const RvizPicture picture = ReadRvizFile(*file, height_px);
   const options::Option* const camera = list.Find("camera");
   const bool has_camera = camera != nullptr && camera->channel != Channel::kDefault;
+  const options::Option* const topics = list.Find("marker_topics");
+  const bool takes_topics =
+      topics != nullptr && topics->channel == Channel::kDefault && HasTopics(list);
   std::string missing;
   for (const RvizPicture::Setting& setting : picture.settings) {
     if (setting.option == "show" && HasTopics(list)) continue;  // the topics have the frames
@@ -203,7 +212,9 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
     } else if (option->channel == Channel::kDefault && list.HasEffect(setting.option) &&
                !(has_camera && IsPartOfView(setting.option))) {
       const std::string origin = fmt::format("{}:{}: ", *file, setting.line);
-      list.Set(*option, setting.option, {setting.text, origin}, Channel::kFile);
+      const bool is_drawn_grid = setting.option == "floor" && takes_topics;
+      list.Set(*option, setting.option, {is_drawn_grid ? "off" : setting.text, origin},
+               Channel::kFile);
     }
   }
   ApplyRobots(*file, picture.robots, list);

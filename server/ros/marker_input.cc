@@ -234,7 +234,8 @@ class MarkerStore::FrameCache {
 };
 
 bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
-  const auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+  auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+  if (!frame && entry.stands_in_scene) frame.emplace();
   if (!frame) {
     if (!std::exchange(entry.is_lost, true)) lost_.push_back(LostOf(key, entry));
     return false;  // it stays where it was, or has no place yet
@@ -286,12 +287,15 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   return true;
 }
 
-void MarkerStore::AddAxes(std::size_t topic, const ShownTopic& frame) {
-  const Marker axes = AxesMarker(frame.name, frame.style);
-  if (const auto refusal = Apply(topic, axes, 0)) {
+void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
+  const Marker lines =
+      frame.is_grid ? GridMarker(frame.name, frame.style) : AxesMarker(frame.name, frame.style);
+  if (const auto refusal = Apply(topic, lines, 0)) {
     throw UsageError("--marker_topics: " + refusal->text);
   }
-  entries_.at(Key{topic, axes.ns, axes.id}).is_of_axes = true;
+  Entry& entry = entries_.at(Key{topic, lines.ns, lines.id});
+  entry.is_of_frame = true;
+  entry.stands_in_scene = frame.style.grid.stands_in_scene;
 }
 
 void MarkerStore::PlaceAgain() {
@@ -301,7 +305,7 @@ void MarkerStore::PlaceAgain() {
 
 std::string MarkerStore::FirstFrame() const {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [](const auto& entry) {
-    return !entry.second.is_of_axes && !entry.second.frame.empty();
+    return !entry.second.is_of_frame && !entry.second.frame.empty();
   });
   return found == entries_.end() ? "" : found->second.frame;
 }

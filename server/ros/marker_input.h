@@ -51,9 +51,9 @@ class MarkerStore {
       std::size_t topic, const std::vector<visualization_msgs::Marker>& messages,
       std::int64_t monotonic_nanos, const ShownStyle& style = {});
 
-  /// Puts the axes of a frame into the store, for good. @pre frame.is_frame
+  /// Puts the axes of a frame, or a grid in it, into the store, for good. @pre frame.is_frame
   /// @throws UsageError if they cannot be shown
-  void AddAxes(std::size_t topic, const ShownTopic& frame);
+  void AddOfFrame(std::size_t topic, const ShownTopic& frame);
 
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.
@@ -87,8 +87,9 @@ class MarkerStore {
     std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
-    bool is_new = true;       // the newest message was not placed yet
-    bool is_of_axes = false;  // of no message
+    bool is_new = true;            // the newest message was not placed yet
+    bool is_of_frame = false;      // of no message
+    bool stands_in_scene = false;  // where its frame is not known
     bool is_lost = false;
     std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
   };

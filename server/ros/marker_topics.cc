@@ -80,7 +80,7 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_fram
     if (topic.is_every_frame()) {
       frames_.emplace(topic.style, kFramesEveryNanos);
     } else if (topic.is_frame) {
-      store_.AddAxes(i, topic);
+      store_.AddOfFrame(i, topic);
     } else {
       counters_[topic.name];  // shown even without messages
     }

@@ -48,6 +48,9 @@ void ExpectBox(const AlignedBox3d& box, const Vector3d& lowest, const Vector3d& 
 
 TEST(SceneExtent, IsEmptyWithoutAnything) {
   EXPECT_TRUE(ExtentOf({}, {}).isEmpty());
+  SceneMarker grid = *CubeAt({0, 0, 0}, 1000);
+  grid.ns = kNamespaceOfGrids;
+  EXPECT_TRUE(ExtentOf({}, {std::make_shared<const SceneMarker>(grid)}).isEmpty());
   const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_TRUE(ExtentOf({RobotWith({nowhere})}, {CubeAt(nowhere, 1)}).isEmpty());
 }

@@ -73,7 +73,8 @@ BagSurroundings::BagSurroundings(const GraphView& view)
       continue;
     }
     // A topic begins with a slash, this name does not.
-    store_.AddAxes(topics_.try_emplace("tf:" + topic.name, topics_.size()).first->second, topic);
+    const std::string name = fmt::format("{}:{}", topics_.size(), topic.name);
+    store_.AddOfFrame(topics_.try_emplace(name, topics_.size()).first->second, topic);
     has_markers_ = true;
   }
   for (const GraphRobot& robot : view.robots) {

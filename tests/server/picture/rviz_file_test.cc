@@ -115,10 +115,11 @@ TEST(RvizFile, SaysThatNoPersonIsSeen) {
     return ReadText(WithDisplays(displays)).remarks;
   };
   EXPECT_THAT(remarks("    - {Class: rviz/Grid, Enabled: true}\n"),
-              ElementsAre(HasSubstr("no display that is on shows people")));
+              Contains(HasSubstr("no display that is on shows people")));
   EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true, Name: Me, Alpha: abc}\n"),
-              ElementsAre(HasSubstr("'Me': Alpha is 0: it is not seen")));
-  EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true}\n"), ElementsAre());
+              Contains(HasSubstr("'Me': Alpha is 0: it is not seen")));
+  EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true}\n"),
+              ElementsAre(HasSubstr("no Class")));
 }
 
 TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
@@ -136,6 +137,7 @@ TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
               ElementsAre("saved.rviz:3: rviz/Path 'Plan' is not drawn: it has no topic",
                           "saved.rviz:10: jsk/Overlay 'Words' is not drawn",
                           "saved.rviz:11: a display without a Class 'lower case' is not drawn",
+                          HasSubstr("no display that is on shows people"),
                           HasSubstr("the current view has no Class")));
 }
 
@@ -479,15 +481,6 @@ TEST(RvizFile, HasTheSceneOverTheImagesOfCameras) {
   EXPECT_THROW(value.Parse("/a(scene=on)"), options::BadValue);
 }
 
-TEST(RvizFile, SaysThatTheFloorIsNotOverImages) {
-  const std::string camera =
-      "    - {Class: rviz/Camera, Enabled: true, Name: Eye, Image Topic: /a/image_raw}\n";
-  const std::string grid = "    - {Class: rviz/Grid, Enabled: true}\n";
-  const auto remark = HasSubstr("'Eye': the floor is not drawn over its picture");
-  EXPECT_THAT(ReadText(WithDisplays(camera + grid)).remarks, Contains(remark));
-  EXPECT_THAT(ReadText(WithDisplays(camera)).remarks, Not(Contains(remark)));
-}
-
 TEST(RvizFile, HasCloudsOfDepths) {
   const RvizPicture picture = ReadText(WithDisplays(
       "    - {Class: rviz/DepthCloud, Enabled: true, Name: Plain, Depth Map Topic: /d/image,\n"
@@ -571,15 +564,17 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
     return ReadText(WithDisplays("    - {Enabled: true, Name: A, " + display + "}\n")).remarks;
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: -0.9}", "Offset is not taken: the floor"},
-      {"Class: rviz/Grid, Reference Frame: base_link", "Reference Frame 'base_link': the floor"},
+      {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: 1e9}", "its Offset is too far"},
+      {"Class: rviz/Grid, Plane Cell Count: 4000, Alpha: 1", "Plane Cell Count 4000 is taken"},
       {"Class: rviz/Path, Topic: /a, Offset: {X: 1, Y: 0, Z: 0}", "Offset is not taken: the path"},
       {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},
       {"Class: rviz/RobotModel, Links: {a: {Value: false}, b: {Value: true}, c: {Value: false}}",
        "links that are off are drawn: a and 1 others"},
       {"Class: rviz/RobotModel, Links: {a: {Show Axes: true}, b: {Alpha: 0.5}}",
        "axes, trails and Alpha of single links are not drawn: a and 1 others"},
-      {"Class: rviz/Grid, Plane Cell Count: 80", "size and number of its cells are not taken"},
+      {"Class: rviz/Grid, Plane Cell Count: 8000", "Plane Cell Count 8000 is taken as 1000"},
+      {"Class: rviz/Grid, Plane Cell Count: 500, Normal Cell Count: 30",
+       "Plane Cell Count 500 is taken as 100"},
       {"Class: rviz/TF, Filter (whitelist): arm", "Filter (whitelist) is not taken"},
       {"Class: rviz/Axes, Show Trail: true", "it has no trail"},
       {"Class: rviz/Map, Topic: /a, Draw Behind: 1", "Draw Behind: it is drawn in front"},
@@ -590,7 +585,7 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
     EXPECT_THAT(remarks_of(display), Contains(HasSubstr("'A': " + remark))) << display;
   }
   for (const std::string plain :
-       {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: 0}, Reference Frame: <Fixed Frame>",
+       {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: -0.9}, Reference Frame: table, Cell Size: 2",
         "Class: rviz/RobotModel, Links: {a: {Value: true}, All Links Enabled: true}"}) {
     EXPECT_THAT(remarks_of(plain), Not(Contains(HasSubstr("'A'")))) << plain;
   }
@@ -715,7 +710,53 @@ TEST(RvizFile, ShowsTopicsAlsoWithoutADisplayOfMarkers) {
   EXPECT_THAT(hidden_of("Class: rviz/PointCloud2, Enabled: true, Topic: /cloud"),
               Not(HasSubstr("markers")));
   EXPECT_THAT(hidden_of("Class: rviz/Axes, Enabled: true"), Not(HasSubstr("markers")));
-  EXPECT_THAT(hidden_of("Class: rviz/Grid, Enabled: true"), HasSubstr("markers"));
+  EXPECT_THAT(hidden_of("Class: rviz/Grid, Enabled: true"), Not(HasSubstr("markers")));
+  EXPECT_THAT(hidden_of("Class: rviz/Grid, Enabled: false"), HasSubstr("markers"));
+}
+
+TEST(RvizFile, HasGridsAsTopics) {
+  const auto grid_of = [](const std::string& properties) {
+    return TopicsOf("Class: rviz/Grid" + properties).at(0);
+  };
+  EXPECT_EQ(grid_of("").name, "grid:");
+  EXPECT_EQ(grid_of("").style, "") << "ours is RViz's usual one";
+  EXPECT_TRUE(grid_of("").is_floor);
+  EXPECT_FALSE(grid_of("").floor_differs);
+  EXPECT_TRUE(grid_of(", Plane Cell Count: 20").is_floor);
+  EXPECT_TRUE(grid_of(", Offset: {X: 0, Y: 0, Z: -0.9}").floor_differs);
+  EXPECT_TRUE(grid_of(", Reference Frame: table").floor_differs);
+  EXPECT_FALSE(grid_of(", Plane: YZ").is_floor);
+  EXPECT_EQ(grid_of(", Reference Frame: /table").name, "grid:table");
+  EXPECT_EQ(grid_of(", Plane: XZ, Cell Size: 0.5, Plane Cell Count: 20, Normal Cell Count: 2, "
+                    "Color: 255; 0; 0, Alpha: 1, Offset: {X: 1, Y: 0, Z: -0.9}, "
+                    "Line Style: {Value: Billboards, Line Width: 0.05}")
+                .style,
+            "(size=0.5,cells=20,layers=2,plane=xz,at=1|0|-0.9,color=#ff0000,alpha=1,width=0.05)");
+  const RvizPicture fixed = ReadText(WithDisplays("    - {Class: rviz/Grid, Enabled: true}\n",
+                                                  "  Global Options: {Fixed Frame: odom}\n"));
+  EXPECT_EQ(fixed.topics.at(0).name + fixed.topics.at(0).style, "grid:odom(missing=scene)");
+}
+
+TEST(ShownTopics, HaveGrids) {
+  ShownTopicsValue value;
+  value.Parse("grid:,grid:table(size=0.5,cells=20,layers=2,plane=yz,at=1|-2|0.5,missing=scene)");
+  ASSERT_EQ(value->size(), 2u);
+  EXPECT_TRUE((*value)[0].is_grid && (*value)[0].is_frame);
+  EXPECT_EQ((*value)[0].style.grid.cells, 10);
+  const ShownTopic& second = (*value)[1];
+  EXPECT_EQ(second.name, "table");
+  EXPECT_EQ(second.style.size_m, 0.5);
+  EXPECT_EQ(second.style.grid.cells, 20);
+  EXPECT_EQ(second.style.grid.layers, 2);
+  EXPECT_EQ(second.style.grid.plane, GridStyle::Plane::kYz);
+  EXPECT_THAT(second.style.grid.offset, ElementsAre(1, -2, 0.5));
+  EXPECT_TRUE(second.style.grid.stands_in_scene);
+  for (const char* wrong :
+       {"grid:*", "grid:a b", "grid:(cells=0)", "grid:(cells=1001)", "grid:(cells=2.5)",
+        "grid:(layers=21)", "grid:(cells=200,layers=1)", "grid:(plane=zx)", "grid:(at=1|2)",
+        "grid:(at=1|2|3|4)", "grid:(at=1|2|x)", "grid:(at=1e9|0|0)", "grid:(missing=world)"}) {
+    EXPECT_THROW(ShownTopicsValue().Parse(wrong), options::BadValue) << wrong;
+  }
 }
 
 TEST(RvizFile, HasHowManyMessagesAreShown) {

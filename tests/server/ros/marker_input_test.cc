@@ -121,6 +121,28 @@ TEST(MarkerInput, RejectsInvalidMarkersByNameAndReason) {
   EXPECT_FALSE(store.Update(0, Cart().Find()));
 }
 
+// RViz draws a grid in its fixed frame whether TF knows that or not.
+TEST(MarkerStore, HasGridsInTheirFrameOrThatOfTheScene) {
+  ShownTopic grid;
+  grid.is_frame = grid.is_grid = true;
+  grid.name = "cart";
+  MarkerStore strict, lenient;
+  strict.AddOfFrame(0, grid);
+  grid.style.grid.stands_in_scene = true;
+  lenient.AddOfFrame(0, grid);
+  Cart cart;
+  cart.x.reset();
+  EXPECT_FALSE(strict.Update(0, cart.Find()));
+  ASSERT_TRUE(lenient.Update(0, cart.Find()));
+  EXPECT_EQ(X(lenient), 0);
+  EXPECT_EQ(lenient.markers()[0]->ns, kNamespaceOfGrids);
+  cart.x = 3;
+  ASSERT_TRUE(strict.Update(1'000'000'000, cart.Find()));
+  ASSERT_TRUE(lenient.Update(1'000'000'000, cart.Find()));
+  EXPECT_EQ(X(strict), 3);
+  EXPECT_EQ(X(lenient), 3);
+}
+
 TEST(MarkerStore, AddsChangesAndDeletesByTopicNamespaceAndNumber) {
   MarkerStore store;
   const Cart cart;

@@ -698,6 +698,31 @@ TEST(ShownMessages, APointCloudOfTheOldTypeHasItsIntensities) {
   EXPECT_THAT(ShownOf(cloud).at(0).colors, SizeIs(0)) << "not one for each point";
 }
 
+TEST(GridMarker, HasTheLinesOfRviz) {
+  ShownStyle style;
+  const Marker plain = GridMarker("", style);
+  EXPECT_THAT(plain.points, SizeIs(2 * 2 * 11)) << "ten cells have eleven lines each way";
+  EXPECT_NEAR(plain.color.a, 0.5, 1e-6);
+  style.size_m = 0.5;
+  style.grid.cells = 4;
+  style.grid.layers = 2;
+  style.grid.plane = GridStyle::Plane::kXz;
+  style.grid.offset = {10, 20, 30};
+  style.color = Rgb{1, 0, 0};
+  const Marker box = GridMarker("table", style);
+  EXPECT_EQ(box.header.frame_id, "table");
+  EXPECT_EQ(box.color.r, 1);
+  EXPECT_THAT(box.points, SizeIs(2 * (2 * 5 * 3 + 5 * 5)));
+  Eigen::AlignedBox3d extent;
+  for (const auto& point : box.points) extent.extend(Eigen::Vector3d(point.x, point.y, point.z));
+  EXPECT_TRUE(extent.min().isApprox(Eigen::Vector3d(9, 19.5, 29)));
+  EXPECT_TRUE(extent.max().isApprox(Eigen::Vector3d(11, 20.5, 31)));
+  style.grid = {};
+  style.grid.cells = kMostLayeredCells;
+  style.grid.layers = kMostGridLayers;
+  EXPECT_LE(GridMarker("", style).points.size(), kMaxMarkerPoints);
+}
+
 TEST(ShownMessages, OtherTypesAreNone) {
   EXPECT_EQ(FindShownMessage(ros::message_traits::md5sum<visualization_msgs::Marker>()), nullptr);
   EXPECT_EQ(FindShownMessage(""), nullptr);
