@@ -106,8 +106,8 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::RelativeHumidity& message,
 /// Axes of 1 m, or of the size of the style, that go with a frame of TF; "": that of the scene.
 visualization_msgs::Marker AxesMarker(const std::string& frame, const ShownStyle& style);
 
-/// A grid that goes with a frame of TF; "": that of the scene. RViz's lines of one pixel are a
-/// hundredth of a cell wide.
+/// A grid that goes with a frame of TF; "": that of the scene. RViz's lines of one pixel are
+/// 1 cm wide.
 visualization_msgs::Marker GridMarker(const std::string& frame, const ShownStyle& style);
 
 /// The markers of serialised bytes; or why there are none.
