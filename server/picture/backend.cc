@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
+#include <set>
 
 #include "core/system/errors.h"
 #include "server/picture/backend_probe.h"
@@ -33,6 +35,16 @@ BackendChoice ChooseByTrying(const std::vector<std::string>& gpus,
     note += fmt::format("{}{} does not work: {}", note.empty() ? "" : "; ", name, report.reason);
   }
   throw render::RenderError("--backend=auto: " + note);
+}
+
+// Each renderer says once what is wrong with a mesh; all of this process together, too.
+void WarnOnce(const std::string& line) {
+  constexpr std::size_t kMost = 1000;
+  static std::mutex mutex;
+  static std::set<std::string> said;  // guarded by mutex
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (said.size() >= kMost) said.clear();  // limits memory: names are untrusted
+  if (said.insert(line).second) spdlog::warn("{}", line);
 }
 
 options::Choice<std::string>::Words BackendWords() {
@@ -77,12 +89,11 @@ BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machin
 
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options,
                                                 const BackendChoice& choice,
-                                                std::function<void(const std::string&)> on_hang,
-                                                render::LogLine log) {
+                                                std::function<void(const std::string&)> on_hang) {
   render::RendererSettings settings;
   settings.backend = choice.name;
   settings.note = choice.note;
-  settings.log = log ? std::move(log) : [](const std::string& line) { spdlog::warn("{}", line); };
+  settings.log = WarnOnce;
   settings.limit = LimitOf(options);
   settings.on_hang = std::move(on_hang);
   return render::MakeRenderer(std::move(settings));

@@ -39,11 +39,11 @@ struct Machine {
 /// @throws UsageError with the value.
 BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machine = {});
 
-/// A renderer of that back-end, whose warnings are logged. Any thread; the renderer belongs to the
-/// calling thread. @throws render::RenderError, UsageError.
+/// A renderer of that back-end, whose warnings are logged, each once in this process. Any thread;
+/// the renderer belongs to the calling thread. @throws render::RenderError, UsageError.
 std::unique_ptr<render::Renderer> StartRenderer(
     const BackendOptions& options, const BackendChoice& choice,
-    std::function<void(const std::string&)> on_hang = {}, render::LogLine log = {});
+    std::function<void(const std::string&)> on_hang = {});
 
 /// Chooses and starts a back-end; the note is logged once.
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options);

@@ -512,6 +512,18 @@ TEST_F(RenderCommand, NamesAnImpossibleWidthInPrint) {
   EXPECT_THAT(alone.err, AllOf(HasSubstr("dpi"), HasSubstr("without --width_mm")));
 }
 
+TEST_F(RenderCommand, NamesAMeshThatIsMissingOnce) {
+  const std::string urdf = folder_ / "arm.urdf";
+  std::ofstream(urdf) << "<robot name='arm'><link name='a'><visual><geometry><mesh "
+                         "filename='package://nowhere/a.stl'/></geometry></visual></link></robot>";
+  const ProgramResult result = Render({"--robot", urdf, "--time", "1", "--out", folder_ / "a.png"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string line = "mesh package://nowhere/a.stl: package 'nowhere' was not found";
+  const std::size_t first = result.err.find(line);
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find(line, first + 1), std::string::npos) << result.err;
+}
+
 TEST_F(RenderCommand, NamesAChangedFileWithInvalidUtf8) {
   std::ofstream(Path("tool.obj")) << "mtllib n\xFF.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

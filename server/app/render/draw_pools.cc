@@ -3,34 +3,18 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <mutex>
-#include <set>
-
 #include "server/picture/cores.h"
 
 namespace kinescope::app {
 namespace {
-
-// Each renderer says once what is wrong with a mesh; all of them together, too.
-render::LogLine LogOnce() {
-  struct Said {
-    std::mutex mutex;
-    std::set<std::string> lines;  // guarded by mutex
-  };
-  return [said = std::make_shared<Said>()](const std::string& line) {
-    const std::lock_guard lock(said->mutex);
-    if (said->lines.insert(line).second) spdlog::warn("{}", line);
-  };
-}
 
 std::unique_ptr<DrawPool> MakeDrawPool(int jobs, std::size_t most_pictures,
                                        const BackendOptions& backend) {
   render::UseFillingThreads(FillingThreads(CoresHere(), jobs));
   const BackendChoice choice = ChooseBackend(backend);
   if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
-  return std::make_unique<DrawPool>(jobs, most_pictures, [backend, choice, log = LogOnce()] {
-    return StartRenderer(backend, choice, {}, log);
-  });
+  return std::make_unique<DrawPool>(jobs, most_pictures,
+                                    [backend, choice] { return StartRenderer(backend, choice); });
 }
 
 }  // namespace
