@@ -81,7 +81,6 @@ struct GridStyle {
   int cells = 10;                            // along each side
   int layers = 0;                            // of cells across the plane
   std::array<double, 3> offset = {0, 0, 0};  // of its middle, in the frame, m
-  bool stands_in_scene = false;              // where its frame is not known: in that of the scene
 };
 inline constexpr int kMostGridCells = 1000, kMostGridLayers = 20;
 /// Of one with layers, whose lines are many more.
@@ -139,6 +138,9 @@ struct ShownStyle {
   CameraStyle camera = {};
   EarlierMessages earlier = {};
   GridStyle grid = {};
+  /// Of axes and grids whose frame is not known: they stand at the origin of the scene, and that is
+  /// told, unless it was to be expected.
+  bool stands_in_scene = false, is_told_missing = false;
 };
 
 inline constexpr char kEveryFrame[] = "*";

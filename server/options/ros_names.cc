@@ -162,12 +162,8 @@ bool TakeFrames(const std::string& key, const std::string& text, FramesStyle& fr
   return text == "on" || text == "off";
 }
 
-// "cells=20", "layers=2", "plane=xz", "at=0|0|-0.9", "missing=scene" of a grid.
+// "cells=20", "layers=2", "plane=xz", "at=0|0|-0.9" of a grid.
 bool TakeGrid(const std::string& key, const std::string& text, GridStyle& grid) {
-  if (key == "missing") {
-    grid.stands_in_scene = text == "scene";
-    return grid.stands_in_scene;
-  }
   if (key == "plane") {
     using Plane = GridStyle::Plane;
     grid.plane = text == "xz" ? Plane::kXz : text == "yz" ? Plane::kYz : Plane::kXy;
@@ -265,12 +261,16 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   if (is_one_of({"axes", "names", "arrows", "text", "timeout"})) {
     return TakeFrames(key, text, style.frames);
   }
-  if (is_one_of({"cells", "layers", "plane", "at", "missing"}))
-    return TakeGrid(key, text, style.grid);
+  if (is_one_of({"cells", "layers", "plane", "at"})) return TakeGrid(key, text, style.grid);
   if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
   if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
     if (!style.scale) style.scale = PointScale{};
     return TakeScale(key, text, *style.scale);
+  }
+  if (key == "missing") {  // a frame
+    style.stands_in_scene = true;
+    style.is_told_missing = text == "origin";
+    return text == "scene" || text == "origin";
   }
   const auto number = options::ParseNumber(text);
   if (key == "alpha" && number) {

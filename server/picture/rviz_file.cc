@@ -129,8 +129,11 @@ class RvizReader {
     } else if (kind == "rviz/RobotModel") {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
-      ReadMarkers(display);
-      ReadTopic(display, called, "Marker Topic", MarkerStyleOf(display, kind, called));
+      const bool is_ours = IsOurs(display);
+      if (is_ours) ReadParts(display);
+      has_markers_ = true;
+      ReadTopic(display, called, "Marker Topic", MarkerStyleOf(display, kind, called, is_ours),
+                is_ours);
     } else if (kind == "rviz/Image" || kind == "rviz/Camera") {
       ReadTopic(display, called, "Image Topic",
                 kind == "rviz/Camera" ? CameraStyleOf(display, called) : "");
@@ -168,8 +171,11 @@ class RvizReader {
     const bool is_level = plane != "XZ" && plane != "YZ";
     const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
     RvizPicture::Topic grid{kGridInFrame + frame,
-                            GridStyleOf(display, called, is_fixed && !frame.empty()), Shown(called),
-                            false, LineOf(display)};
+                            GridStyleOf(display, called,
+                                        frame.empty() ? ""
+                                        : is_fixed    ? "missing=scene"
+                                                      : "missing=origin"),
+                            Shown(called), false, LineOf(display)};
     if (is_level) {
       has_floor_ = true;
       grid.is_floor = true;
@@ -180,7 +186,7 @@ class RvizReader {
 
   // What differs from a grid of ours, which is RViz's usual one.
   std::string GridStyleOf(const YAML::Node& display, const std::string& called,
-                          bool is_in_fixed_frame) {
+                          const std::string& missing) {
     std::vector<std::string> items;
     const auto limited = [&](const YAML::Node& of, const char* property, double usual, double least,
                              double most) {
@@ -192,9 +198,14 @@ class RvizReader {
       if (value != usual) items.push_back(key + ("=" + options::NumberText(value)));
     };
     add("size", limited(display, "Cell Size", 1, kSmallestShown, kLargestShown), 1);
-    const double layers = std::floor(limited(display, "Normal Cell Count", 0, 0, kMostGridLayers));
+    // As of a text, of which a number with a fraction is none.
+    const auto whole = [&](const char* property, double usual, double least, double most) {
+      const double value = limited(display, property, usual, least, most);
+      return value == std::floor(value) ? value : least;
+    };
+    const double layers = whole("Normal Cell Count", 0, 0, kMostGridLayers);
     const int most = layers > 0 ? kMostLayeredCells : kMostGridCells;
-    add("cells", std::floor(limited(display, "Plane Cell Count", 10, 1, most)), 10);
+    add("cells", whole("Plane Cell Count", 10, 1, most), 10);
     add("layers", layers, 0);
     const std::string plane = TextOf(display, "Plane", "XY");
     if (plane == "XZ" || plane == "YZ") items.push_back(plane == "XZ" ? "plane=xz" : "plane=yz");
@@ -208,14 +219,23 @@ class RvizReader {
     }
     if (const auto color = rviz::ColorOf(display, "Color", kGridColor)) {
       if (*color != kGridColor) items.push_back("color=" + ToHex(*color));
+    } else {
+      Remark(display, called + ": Color " + Quoted(TextOf(display, "Color", "")) +
+                          " is no r; g; b or #rrggbb; grey is taken");
     }
-    add("alpha", rviz::NumberOf(display, "Alpha", 0.5, 0, 1), 0.5);
-    if (is_in_fixed_frame) items.push_back("missing=scene");  // which need not be there
+    const double alpha = rviz::NumberOf(display, "Alpha", 0.5, 0, 1);
+    if (alpha == 0) Remark(display, called + ": " + Invisible(display));
+    add("alpha", alpha, 0.5);
+    if (!missing.empty()) items.push_back(missing);
     const YAML::Node style = Member(display, "Line Style");
     if (TextOf(style, "Value", "Lines") == "Billboards") {
       add("width", limited(style, "Line Width", 0.03, kSmallestShown, kLargestShown), 0);
     }
     return items.empty() ? "" : fmt::format("({})", fmt::join(items, ","));
+  }
+
+  static std::string Invisible(const YAML::Node& display) {
+    return "Alpha " + Shown(TextOf(display, "Alpha", "")) + " is 0: it is not seen";
   }
 
   void NameOffset(const YAML::Node& display, const std::string& called, const char* otherwise) {
@@ -291,7 +311,7 @@ class RvizReader {
     if (!has_model_ && alpha < 1) {
       Set("body_opacity", options::NumberText(alpha), LineOf(display));
     }
-    if (alpha == 0) Remark(display, called + ": Alpha is 0: it is not seen");
+    if (alpha == 0) Remark(display, called + ": " + Invisible(display));
     has_model_ = true;
   }
 
@@ -305,7 +325,7 @@ class RvizReader {
   }
 
   void ReadTopic(const YAML::Node& display, const std::string& called, const char* member,
-                 const std::string& style) {
+                 const std::string& style, bool is_of_people = false) {
     const bool is_marker = std::string_view(member) == "Marker Topic";
     const bool is_array = TextOf(display, "Class", "") == "rviz/MarkerArray";
     std::string name = TextOf(display, member,
@@ -321,7 +341,7 @@ class RvizReader {
       Remark(display, fmt::format("{}: {} {} is read as 'raw'", called, hint, Quoted(transport)));
     }
     if (IsTopicName(name)) {
-      picture_.topics.push_back({name, style, Shown(called), is_marker, LineOf(display)});
+      picture_.topics.push_back({name, style, Shown(called), is_of_people, LineOf(display)});
     } else if (!is_marker) {
       const std::string why =
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
@@ -378,7 +398,8 @@ class RvizReader {
 
   void ReadAxes(const YAML::Node& display, const std::string& called) {
     const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
-    const std::string frame = saved == "<Fixed Frame>" ? FixedFrame() : saved;
+    const std::string frame =
+        saved == "<Fixed Frame>" || saved == picture_.fixed_frame ? FixedFrame() : saved;
     if (!frame.empty() && !IsFrameName(frame)) {
       Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
       return;
@@ -390,9 +411,11 @@ class RvizReader {
       return options::NumberText(limit.value);
     };
     if (BoolOf(display, "Show Trail", false)) Remark(display, called + ": it has no trail");
+    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
     std::string style = "(size=" + metres("Length", 1) + ",width=" + metres("Radius", 0.1);
     const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
     if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
+    if (is_fixed && !frame.empty()) style += ",missing=scene";
     picture_.topics.push_back(
         {kAxesOfFrame + frame, style + ")", Shown(called), false, LineOf(display)});
   }
@@ -450,15 +473,15 @@ class RvizReader {
 
   // As RViz does, a display of single markers hears those of "<topic>_array", too.
   std::string MarkerStyleOf(const YAML::Node& display, const std::string& kind,
-                            const std::string& called) {
-    const std::string hidden = HiddenNamespaces(display, called);
+                            const std::string& called, bool is_ours) {
+    const std::string hidden = HiddenNamespaces(display, called, is_ours);
     std::string items = kind == "rviz/Marker" ? "array=on" : "";
     if (!hidden.empty()) items += (items.empty() ? "without=" : ",without=") + hidden;
     return items.empty() ? items : "(" + items + ")";
   }
 
   // "a|b": those of other nodes; ours are parts of the scene.
-  std::string HiddenNamespaces(const YAML::Node& display, const std::string& called) {
+  std::string HiddenNamespaces(const YAML::Node& display, const std::string& called, bool is_ours) {
     const YAML::Node namespaces = Member(display, "Namespaces");
     std::string names;
     if (!namespaces.IsDefined() || !namespaces.IsMap()) return names;
@@ -467,7 +490,7 @@ class RvizReader {
       const std::string name = each.first.as<std::string>();
       const bool is_part = std::find(std::begin(kMarkerParts), std::end(kMarkerParts), name) !=
                            std::end(kMarkerParts);
-      if (is_part || BoolOf(namespaces, name, true)) continue;
+      if ((is_ours && is_part) || BoolOf(namespaces, name, true)) continue;
       if (!rviz::AddHidden(name, names)) {
         Remark(display, called + ": the namespace " + Quoted(name) + " is not left out");
       }
@@ -475,16 +498,19 @@ class RvizReader {
     return names;
   }
 
-  // Parts are drawn that some display of our markers shows: of a topic as the bridge calls it, or
-  // with one of our namespaces.
-  void ReadMarkers(const YAML::Node& display) {
-    has_markers_ = true;
+  // Of our markers: the topic is one as the bridge has it, and the display has met no namespaces,
+  // or one of ours.
+  static bool IsOurs(const YAML::Node& display) {
+    if (!EndsWith("/" + TextOf(display, "Marker Topic", ""), "/markers")) return false;
     const YAML::Node namespaces = Member(display, "Namespaces");
-    const bool has_ours =
-        std::any_of(std::begin(kMarkerParts), std::end(kMarkerParts),
-                    [&](const char* part) { return Member(namespaces, part).IsDefined(); });
-    const std::string topic = "/" + TextOf(display, "Marker Topic", "");
-    if (!has_ours && !EndsWith(topic, "/markers")) return;
+    if (!namespaces.IsDefined() || !namespaces.IsMap() || namespaces.size() == 0) return true;
+    return std::any_of(std::begin(kMarkerParts), std::end(kMarkerParts),
+                       [&](const char* part) { return Member(namespaces, part).IsDefined(); });
+  }
+
+  // Parts are drawn that some display of our markers shows.
+  void ReadParts(const YAML::Node& display) {
+    const YAML::Node namespaces = Member(display, "Namespaces");
     for (const char* part : kMarkerParts) {
       if (BoolOf(namespaces, part, true)) shown_parts_.insert(part);
     }

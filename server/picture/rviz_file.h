@@ -25,10 +25,10 @@ struct RvizPicture {
   } target;
   /// Of a display that is on and of a kind that can be shown from its topic.
   struct Topic {
-    std::string name;     // as it was saved, such as "/goal"
-    std::string style;    // as --marker_topics has it, such as "(color=#ff8800)", or ""
-    std::string display;  // "rviz/Pose 'Goal'"
-    bool is_marker = false;
+    std::string name;           // as it was saved, such as "/goal"
+    std::string style;          // as --marker_topics has it, such as "(color=#ff8800)", or ""
+    std::string display;        // "rviz/Pose 'Goal'"
+    bool is_of_people = false;  // markers of Kinescope, which the scene has anyway
     int line = 1;
     bool is_every_frame = false;  // no topic: all frames of TF
     bool is_floor = false;        // no topic: a level grid, of which the scene's floor takes the

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,11 @@ bool HasTopics(options::OptionList& list) {
   return !sources.empty() && std::all_of(sources.begin(), sources.end(), IsBag);
 }
 
+// Without how it is drawn.
+std::string ModelOf(const RvizPicture::Robot& robot) {
+  return robot.option.substr(0, robot.option.find('('));
+}
+
 // Of the graph: what a person's description is, the server finds out.
 void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>& robots,
                  options::OptionList& list) {
@@ -44,7 +50,10 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
   if (option == nullptr || option->channel != Channel::kDefault || robots.empty()) return;
   std::vector<std::string> texts;
   if (HasGraph(list)) {
-    for (const RvizPicture::Robot& robot : robots) texts.push_back(robot.option);
+    std::set<std::string> models;
+    for (const RvizPicture::Robot& robot : robots) {
+      if (models.insert(ModelOf(robot)).second) texts.push_back(robot.option);
+    }
     list.Set(*option, option->name, {"", file + ": ", texts}, Channel::kFile);
     return;
   }
@@ -54,6 +63,7 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
                  file, robots.front().line, robots.front().display);
   }
   for (std::size_t i = 1; i < robots.size(); ++i) {
+    if (ModelOf(robots[i]) == ModelOf(robots.front())) continue;
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,
                  robots[i].line, robots[i].display);
   }
@@ -72,27 +82,35 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   const bool is_possible = option != nullptr && HasTopics(list);
   std::vector<std::string> names;
   std::vector<std::string> items = {kNoOtherTopics};  // RViz hears what its displays name
+  const std::size_t items_beside = items.size();
+  const bool has_floor_of_page = list.Find("floor") == nullptr;  // each viewer of `serve` has one
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
       if (topic.is_floor) {
-        spdlog::log(topic.floor_differs ? spdlog::level::warn : spdlog::level::info,
-                    "{}{} is drawn as the floor of the scene: the source has no topics", place,
-                    topic.display);
+        if (topic.floor_differs) {
+          spdlog::warn(
+              "{}{} lies elsewhere than the floor, which is drawn in its place: the source "
+              "has no topics (a bag has, and serve with ROS)",
+              place, topic.display);
+        } else {
+          spdlog::info("{}{}: the floor of the scene is drawn in its place", place, topic.display);
+        }
       } else if (topic.is_every_frame) {
         spdlog::warn(
             "{}{}: of frames, only the axes of people's links are drawn: the source has no "
             "TF (a bag has, and serve with ROS)",
             place, topic.display);
-      } else if (!topic.is_marker) {
+      } else if (!topic.is_of_people) {
         spdlog::warn("{}{} is not drawn: the source has no topics (a bag has, and serve with ROS)",
                      place, topic.display);
       }
     } else if (std::find(names.begin(), names.end(), NameOf(topic)) != names.end()) {
       continue;  // the same again
-    } else if (names.size() == kMostShownTopics) {
-      spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display,
-                   kMostShownTopics);
+    } else if (has_floor_of_page && topic.is_floor && !topic.floor_differs) {
+      continue;
+    } else if (names.size() + items_beside == kMostShownTopics) {
+      spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, names.size());
     } else {
       names.push_back(NameOf(topic));
       items.push_back(topic.name + topic.style);
@@ -221,7 +239,10 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   ApplyTopics(*file, picture.topics, list);
   Frames(*file, picture, list).Apply(has_camera);
   for (const std::string& remark : picture.remarks) spdlog::warn("{}", remark);
-  if (!missing.empty()) spdlog::warn("{}: {}: only render takes this", *file, missing);
+  if (!missing.empty()) {
+    spdlog::info("{}: what it has of {} is for render; here each viewer chooses on the page", *file,
+                 missing);
+  }
   list.CheckEffects();
 }
 

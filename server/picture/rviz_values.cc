@@ -55,8 +55,11 @@ std::optional<std::string> ScalarOf(const YAML::Node& map, const std::string& na
 YAML::Node Member(const YAML::Node& map, const std::string& name) {
   const YAML::Node none(YAML::NodeType::Undefined);
   if (!map.IsDefined() || !map.IsMap()) return none;
-  const YAML::Node value = map[name];
-  return value.IsDefined() ? value : none;
+  YAML::Node value = none;
+  for (const auto& each : map) {  // the last of equal names counts
+    if (each.first.IsScalar() && each.first.Scalar() == name) value.reset(each.second);
+  }
+  return value;
 }
 
 std::string TextOf(const YAML::Node& map, const std::string& name, const std::string& otherwise) {

@@ -1,5 +1,6 @@
 #include "server/ros/force_frames.h"
 
+#include <console_bridge/console.h>
 #include <spdlog/fmt/fmt.h>
 #include <tf2/exceptions.h>
 
@@ -30,9 +31,11 @@ const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
   return std::abs(norm - 1) < kMaxOff ? nullptr : "with a quaternion that is not of unit length";
 }
 
-// tf2 refuses what is older than all that it keeps. Once nothing else comes, the clock of the
-// senders was set back: a bag that is played again, a simulator that was started over.
+// tf2 refuses what is older than all that it keeps of a frame. Once nothing else comes of it, the
+// clock of its sender was set back: a bag that is played again, a simulator that was started over,
+// one message of the future.
 constexpr int kTooOldForAJump = 20;
+const ros::Duration kKept(tf2::BufferCore::DEFAULT_CACHE_TIME);
 constexpr std::size_t kMostOfName = 100;  // bytes, in a line of the log
 constexpr char kTooOld[] = "that is older than all that is kept";
 
@@ -44,36 +47,59 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
 
 }  // namespace
 
+TfTree::TfTree() {
+  // tf2 prints a line for each transform that it refuses; who asks is told by Add().
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
+}
+
 const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
   if (const char* const wrong = WhatIsWrong(transform)) return wrong;
-  const std::int64_t stamp = is_static ? 0 : ToNanos(transform.header.stamp);
   const std::string frame = WithoutSlash(transform.child_frame_id);
-  const auto known = frames_.find(frame);
-  const bool is_again = known != frames_.end() && known->second.newest_nanos == stamp;
-  if (is_again && !is_static && !known->second.parent.empty()) return nullptr;
-  if (!buffer_.setTransform(transform, "/tf", is_static)) {
-    if (++too_old_in_a_row_ < kTooOldForAJump) return kTooOld;
-    ForgetMoving();
-    if (!buffer_.setTransform(transform, "/tf", is_static)) return kTooOld;
+  if (is_static) {
+    if (!buffer_.setTransform(transform, "/tf", true)) return kTooOld;
+    Note(frame, transform);
+    return nullptr;
   }
-  if (!is_static) too_old_in_a_row_ = 0;
-  Note(frame, WithoutSlash(transform.header.frame_id), stamp);
+  const auto known = moving_.find(frame);
+  if (!buffer_.setTransform(transform, "/tf", false)) {
+    const bool is_known = known != moving_.end();
+    if (is_known && known->second.newest.header.stamp - transform.header.stamp < kKept) {
+      known->second.too_old_in_a_row = 0;
+      return nullptr;  // the same again, as of a simulator that pauses
+    }
+    if (!is_known || ++known->second.too_old_in_a_row < kTooOldForAJump) return kTooOld;
+    SetBack();
+    if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
+  }
+  Moving& moving = moving_[frame];
+  moving.too_old_in_a_row = 0;
+  if (!(transform.header.stamp < moving.newest.header.stamp)) moving.newest = transform;
+  Note(frame, transform);
   return nullptr;
 }
 
-void TfTree::ForgetMoving() {
+// tf2 can only forget all moving frames: those that are not too old get their newest transform
+// again, and lose the ten seconds before it.
+void TfTree::SetBack() {
   buffer_.clear();  // static ones stay
-  for (auto each = frames_.begin(); each != frames_.end();) {
-    each = each->second.newest_nanos == 0 ? std::next(each) : frames_.erase(each);
+  for (auto each = moving_.begin(); each != moving_.end();) {
+    if (each->second.too_old_in_a_row == 0) {
+      buffer_.setTransform(each->second.newest, "/tf", false);
+      ++each;
+    } else {
+      frames_.erase(each->first);
+      each = moving_.erase(each);
+    }
   }
 }
 
-void TfTree::Note(const std::string& frame, const std::string& parent, std::int64_t stamp_nanos) {
+void TfTree::Note(const std::string& frame, const geometry_msgs::TransformStamped& transform) {
+  const auto moving = moving_.find(frame);
   TreeFrame& known = frames_[frame];
   known.name = frame;
-  known.parent = parent;
-  known.newest_nanos = std::max(known.newest_nanos, stamp_nanos);
-  frames_.try_emplace(parent, TreeFrame{parent, "", 0});
+  known.parent = WithoutSlash(transform.header.frame_id);
+  known.newest_nanos = moving == moving_.end() ? 0 : ToNanos(moving->second.newest.header.stamp);
+  frames_.try_emplace(known.parent, TreeFrame{known.parent, "", 0});
 }
 
 std::optional<Refusal> TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {

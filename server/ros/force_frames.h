@@ -30,9 +30,12 @@ struct TreeFrame {
 /// they are known from the newest sample, and tf2 would ignore them after a recording starts over.
 class TfTree {
  public:
+  TfTree();
+
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
   /// an invalid quaternion) or older than all that are kept, and returns why it skipped the first
-  /// one. If nothing else comes, time was set back: what was kept is forgotten then.
+  /// one. If nothing else comes of a frame, its time was set back: what was kept of it is forgotten
+  /// then.
   std::optional<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Whether `frame` is among those of other nodes.
@@ -48,14 +51,16 @@ class TfTree {
  private:
   /// Null: it is taken.
   const char* Take(const geometry_msgs::TransformStamped& transform, bool is_static);
-  void ForgetMoving();
-  void Note(const std::string& frame, const std::string& parent, std::int64_t stamp_nanos);
+  void SetBack();
+  void Note(const std::string& frame, const geometry_msgs::TransformStamped& transform);
 
+  struct Moving {
+    geometry_msgs::TransformStamped newest;
+    int too_old_in_a_row = 0;  // refused since
+  };
   tf2::BufferCore buffer_;
-  // By name, as tf2 has them. Of a simulator that pauses a stamp comes again and again: tf2 would
-  // print a line each time, and refuse it as what is too old.
-  std::unordered_map<std::string, TreeFrame> frames_;
-  int too_old_in_a_row_ = 0;
+  std::unordered_map<std::string, TreeFrame> frames_;  // by name, as tf2 has them
+  std::unordered_map<std::string, Moving> moving_;     // those that are not static
 };
 
 /// The person at the sensors, as in the newest sample. World frame, metres.

@@ -235,12 +235,13 @@ class MarkerStore::FrameCache {
 
 bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
   auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
-  if (!frame && entry.stands_in_scene) frame.emplace();
-  if (!frame) {
-    if (!std::exchange(entry.is_lost, true)) lost_.push_back(LostOf(key, entry));
+  const bool is_told = !frame && (!entry.stands_in_scene || entry.is_told_missing);
+  if (is_told && !entry.is_lost) lost_.push_back(LostOf(key, entry));
+  entry.is_lost = is_told;
+  if (!frame && !entry.stands_in_scene) {
     return false;  // it stays where it was, or has no place yet
   }
-  entry.is_lost = false;
+  if (!frame) frame.emplace();
   entry.is_new = false;
   const urdf::Pose& local = entry.shape->pose;
   const urdf::Pose pose{frame->position + frame->orientation * local.position,
@@ -295,7 +296,8 @@ void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
   }
   Entry& entry = entries_.at(Key{topic, lines.ns, lines.id});
   entry.is_of_frame = true;
-  entry.stands_in_scene = frame.style.grid.stands_in_scene;
+  entry.stands_in_scene = frame.style.stands_in_scene;
+  entry.is_told_missing = frame.style.is_told_missing;
 }
 
 void MarkerStore::PlaceAgain() {
@@ -311,8 +313,13 @@ std::string MarkerStore::FirstFrame() const {
 }
 
 MarkerStore::Lost MarkerStore::LostOf(const Key& key, const Entry& entry) {
-  return {std::get<0>(key), fmt::format("marker {}: frame '{}' is not known yet",
-                                        IdentityOf(*entry.shape), entry.frame)};
+  const std::string unknown = fmt::format("frame '{}' is not known yet", entry.frame);
+  if (!entry.is_of_frame) {
+    return {std::get<0>(key), fmt::format("marker {}: {}", IdentityOf(*entry.shape), unknown)};
+  }
+  return {std::get<0>(key),
+          fmt::format("{}: {}{}", entry.shape->ns == kNamespaceOfGrids ? "a grid" : "axes", unknown,
+                      entry.stands_in_scene ? "; it stands at the origin of the scene" : "")};
 }
 
 std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }

@@ -87,9 +87,9 @@ class MarkerStore {
     std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
-    bool is_new = true;            // the newest message was not placed yet
-    bool is_of_frame = false;      // of no message
-    bool stands_in_scene = false;  // where its frame is not known
+    bool is_new = true;                                     // the newest message was not placed yet
+    bool is_of_frame = false;                               // of no message
+    bool stands_in_scene = false, is_told_missing = false;  // as ShownStyle has it
     bool is_lost = false;
     std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
   };

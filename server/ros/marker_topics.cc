@@ -163,7 +163,7 @@ void MarkerInbox::CountUsed(std::size_t topic) {
 
 void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
                        std::int64_t monotonic_nanos) {
-  if (IsOwnMarkerNamespace(message.ns)) {
+  if (IsOwnMarker(topics_[topic].name, message.ns)) {
     return Refuse(topic, {kOfKinescope, "markers of Kinescope: the scene has them already"});
   }
   if (const auto refusal = store_.Apply(topic, message, monotonic_nanos, topics_[topic].style)) {
@@ -179,7 +179,8 @@ void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_first = CountRefused(refusal, counters_[topics_[topic].name]);
   }
-  if (is_first && std::string_view(refusal.kind) != kOfKinescope) {
+  const std::string_view kind = refusal.kind;
+  if (is_first && kind != kOfKinescope && kind != kEmptyMessage) {
     WarnOfRefused(topics_[topic].name, refusal);
   }
 }
@@ -199,7 +200,7 @@ void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
     if (unplaced_.count(text) == 0) continue;
     if (not_shown.size() < kMost) not_shown.push_back(text);
     if (warned_.size() >= kMost || !warned_.insert(text).second) continue;
-    spdlog::warn("{}; it is not shown", PrintableLine(text));
+    spdlog::warn("{}", PrintableLine(text));
   }
   unplaced_ = std::move(unplaced);
   const std::lock_guard<std::mutex> lock(mutex_);

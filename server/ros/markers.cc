@@ -224,7 +224,8 @@ void MakeDeleted(visualization_msgs::MarkerArray& message) {
   for (Marker& marker : message.markers) marker.action = Marker::DELETE;
 }
 
-bool IsOwnMarkerNamespace(const std::string& ns) {
+bool IsOwnMarker(const std::string& topic, const std::string& ns) {
+  if (!EndsWith(topic, "/markers")) return false;
   for (const char* const own : {kLoads, kCom, kCop, kSupport, kForces, kHandLoads}) {
     if (ns == own) return true;
   }

@@ -48,6 +48,6 @@ void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& messag
 void MakeDeleted(visualization_msgs::MarkerArray& message);
 
 /// Whether it is a namespace of these markers.
-bool IsOwnMarkerNamespace(const std::string& ns);
+bool IsOwnMarker(const std::string& topic, const std::string& ns);
 
 }  // namespace kinescope::ros_bridge

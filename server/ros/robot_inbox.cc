@@ -68,7 +68,7 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   if (!urdf) return;  // what is shown stays, as in RViz
   if (urdf::IsWrittenByKinescope(*urdf)) {
     spdlog::info("{} is a person of Kinescope, who is shown as one{}", ParameterOf(i),
-                 wanted_[i].opacity < 1 ? ", not translucent" : "");
+                 wanted_[i].opacity < 1 ? "; --body_opacity makes people translucent" : "");
     return Refuse(i, "of Kinescope", "a person of Kinescope: the scene has them already");
   }
   RobotState robot;

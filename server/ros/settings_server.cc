@@ -1,6 +1,7 @@
 #include "server/ros/settings_server.h"
 
 #include <dynamic_reconfigure/Reconfigure.h>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include "core/system/clocks.h"
@@ -79,7 +80,11 @@ dynamic_reconfigure::Config SettingsServer::Set(const dynamic_reconfigure::Confi
     current_.height_m = wanted.all.height_m;
     current_.sex = wanted.all.sex;
   }
-  for (const std::string& why : wanted.refused) spdlog::warn("not set over ROS: {}", why);
+  if (!wanted.refused.empty()) {
+    const std::string told = refusals_.Pass(
+        fmt::format("not set over ROS: {}", fmt::join(wanted.refused, "; ")), MonotonicNanos());
+    if (!told.empty()) spdlog::warn("{}", told);
+  }
   Publish();
   return ToConfig(current_);
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/system/line_limit.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::ros_bridge {
@@ -35,6 +36,7 @@ class SettingsServer {
   const RosSettings settings_;
   const ros::Publisher descriptions_, updates_;
   std::int64_t due_nanos_ = 0;
+  LineLimit refusals_;
   std::int64_t settled_nanos_ = 0;    // until then orders take effect
   std::optional<LiveSettings> seen_;  // when it was last looked
   LiveSettings current_;              // with what was ordered since. @pre seen_

@@ -188,7 +188,10 @@ void RosNews::OnMark(const std::string& text) {
   const std::string line = PrintableLine(text);
   const std::size_t letters = DecodeUtf8(line).size();
   const bool is_button = line.size() == 1 && line[0] >= '1' && line[0] <= '9';
-  const auto refuse = [&](const std::string& why) { spdlog::warn("~mark was not kept: {}", why); };
+  const auto refuse = [&](const std::string& why) {
+    const std::string told = refused_marks_.Pass("~mark was not kept: " + why, MonotonicNanos());
+    if (!told.empty()) spdlog::warn("{}", told);
+  };
   if (marks_ == nullptr)
     return refuse("marks need `kinescope serve` with a history (--history_minutes)");
   if (state == nullptr || state->stamp_nanos == 0) return refuse("no sample has come yet");

@@ -11,6 +11,7 @@
 
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "core/system/line_limit.h"
 #include "server/alarms/alarms.h"
 #include "server/app/log.h"
 #include "server/app/serve/stream_health.h"
@@ -48,6 +49,7 @@ class RosNews {
   std::atomic<bool> is_due_{true};
   std::int64_t diagnosed_nanos_ = 0;
   std::uint64_t published_revision_;  // of the marks
+  LineLimit refused_marks_;
   const std::shared_ptr<LogTail> log_;
   std::deque<LogLine> unheard_;  // lines of the log
   std::string published_state_;

@@ -46,6 +46,9 @@ SourceError NotABag(const std::string& path, const std::string& what) {
 InputFile OpenBagFile(const std::string& path) {
   InputFile file = OpenInputFile(path);
   if (!StartsWith(file.head(), kBagMagic)) {
+    if (!file.head().empty() && StartsWith(kBagMagic, file.head())) {
+      throw NotABag(path, "truncated within its first line; copy it again from its origin");
+    }
     if (StartsWith(file.head(), kAnyBagMagic)) {
       throw NotABag(path,
                     "unsupported version of the bag format; expected 2.0: convert it with `rosbag "

@@ -163,7 +163,8 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
     ++counters.rejected[defect];
     return;
   }
-  if (!array_.markers.empty() && IsOwnMarkerNamespace(array_.markers.front().ns)) {
+  const std::string name = WithSlash(message.connection->topic);
+  if (!array_.markers.empty() && IsOwnMarker(name, array_.markers.front().ns)) {
     ++counters.ignored["markers of Kinescope"];
     return;
   }
@@ -173,7 +174,7 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
     const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
     if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
   };
-  const auto [first, last] = heard_.equal_range(WithSlash(message.connection->topic));
+  const auto [first, last] = heard_.equal_range(name);
   if (first == last) return apply(NumberOf(message.connection->topic, counters), {});
   for (auto each = first; each != last; ++each) {
     const std::size_t shown = each->second.shown;
@@ -325,7 +326,7 @@ void BagSurroundings::WarnOfProblems(const std::string& bag) const {
   for (const std::string& text : rejected_) warn(text);
   std::size_t count = 0;
   for (const MarkerStore::Lost& lost : store_.Unplaced()) {
-    if (++count <= kMostWarnings) warn(lost.text + "; it is not shown");
+    if (++count <= kMostWarnings) warn(lost.text);
   }
   std::set<std::string> silent;
   for (const ShownTopic& topic : shown_topics_) {

@@ -9,6 +9,7 @@ namespace {
 constexpr char kIncompleteTransforms[] = "sample without all 23 segments";
 constexpr char kNoTree[] = "sample whose frames have no common parent";
 constexpr char kNaming[] = "message on /tf while frame names are still being collected";
+constexpr std::int64_t kMostSettles = 4;
 constexpr char kNobody[] = "message on /tf without a person's segment";
 
 urdf::Pose ToPose(const geometry_msgs::Transform& transform) {
@@ -27,10 +28,15 @@ bool TransformPeople::AddName(const std::string& frame) {
 
 void TransformPeople::NoticeNames(const tf2_msgs::TFMessage& message, std::int64_t now) {
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    if (frames_.Add(WithoutSlash(transform.child_frame_id))) new_name_at_ = now;
+    if (!frames_.Add(WithoutSlash(transform.child_frame_id))) continue;
+    if (!new_name_at_) first_new_name_at_ = now;
+    new_name_at_ = now;
   }
-  if (new_name_at_ && now < *new_name_at_) new_name_at_ = now;  // the clock was set back
-  if (!new_name_at_ || now - *new_name_at_ < settle_nanos_) return;
+  if (!new_name_at_) return;
+  if (now < *new_name_at_) first_new_name_at_ = new_name_at_ = now;  // the clock was set back
+  const bool is_settled = now - *new_name_at_ >= settle_nanos_;
+  const bool is_for_long = now - *first_new_name_at_ >= kMostSettles * settle_nanos_;
+  if (!is_settled && !is_for_long) return;  // some sender may have new names for good
   new_name_at_.reset();
   frames_.Find();
 }

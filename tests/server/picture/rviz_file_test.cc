@@ -77,7 +77,8 @@ TEST(RvizFile, SaysBackgroundFloorAndPartsAsOptions) {
       "    - {Class: rviz/Grid, Enabled: true, Name: Grid}\n"
       "    - {Class: rviz/RobotModel, Enabled: true, Name: Person}\n"
       "    - {Class: rviz/TF, Enabled: true, Name: TF, Show Names: false, Show Arrows: false}\n"
-      "    - {Class: rviz/MarkerArray, Enabled: true, Name: Loads, Namespaces: {com: false}}\n",
+      "    - {Class: rviz/MarkerArray, Enabled: true, Name: Loads, Marker Topic: /lab/markers,\n"
+      "       Namespaces: {com: false}}\n",
       "  Global Options: {Background Color: 177; 255; 255, Fixed Frame: /world}\n")));
   EXPECT_EQ(settings.at("background"), "#b1ffff");
   EXPECT_EQ(settings.at("theme"), "light");
@@ -107,7 +108,8 @@ TEST(RvizFile, ShowsLoadsOnlyWhereADisplayHasOurMarkers) {
   EXPECT_EQ(hidden("Marker Topic: /kinescope/markers"), "shadows,body");
   EXPECT_EQ(hidden("Marker Topic: /lab/anna/markers, Namespaces: {loads: false}"),
             "shadows,body,loads");
-  EXPECT_EQ(hidden("Marker Topic: /renamed, Namespaces: {com: false}"), "shadows,body,com");
+  EXPECT_EQ(hidden("Marker Topic: /carla/markers, Namespaces: {\"\": true}"), all);
+  EXPECT_EQ(hidden("Marker Topic: /viz, Namespaces: {com: false}"), all);
 }
 
 TEST(RvizFile, SaysThatNoPersonIsSeen) {
@@ -117,7 +119,7 @@ TEST(RvizFile, SaysThatNoPersonIsSeen) {
   EXPECT_THAT(remarks("    - {Class: rviz/Grid, Enabled: true}\n"),
               Contains(HasSubstr("no display that is on shows people")));
   EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true, Name: Me, Alpha: abc}\n"),
-              Contains(HasSubstr("'Me': Alpha is 0: it is not seen")));
+              Contains(HasSubstr("'Me': Alpha abc is 0: it is not seen")));
   EXPECT_THAT(remarks("    - {Class: rviz/RobotModel, Enabled: true}\n"),
               ElementsAre(HasSubstr("no Class")));
 }
@@ -265,7 +267,7 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[0].name, "/move/goal");
   EXPECT_EQ(picture.topics[0].display, "rviz/Pose 'Goal'");
   EXPECT_EQ(picture.topics[0].line, 4);
-  EXPECT_TRUE(picture.topics[1].is_marker);
+  EXPECT_FALSE(picture.topics[1].is_of_people);
   EXPECT_EQ(picture.topics[2].name, "/plan");
   EXPECT_EQ(picture.topics[2].style, "");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
@@ -551,12 +553,12 @@ TEST(RvizFile, LeavesOutNamespacesOfMarkersOfOthers) {
       "       Namespaces: {trees: false, roads: true, com: false, \"my poles\": false, a|b: "
       "false}}\n"));
   ASSERT_EQ(picture.topics.size(), 1u);
-  EXPECT_EQ(picture.topics[0].style, "(without=trees|my poles)");
+  EXPECT_EQ(picture.topics[0].style, "(without=trees|com|my poles)");
   EXPECT_THAT(picture.remarks, ElementsAre(HasSubstr("'City': the namespace 'a|b' is not left out"),
                                            HasSubstr("current view has no Class")));
   ShownTopicsValue value;
   value.Parse("/city" + picture.topics[0].style);
-  EXPECT_THAT((*value)[0].style.frames.hidden, ElementsAre("trees", "my poles"));
+  EXPECT_THAT((*value)[0].style.frames.hidden, ElementsAre("trees", "com", "my poles"));
 }
 
 TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
@@ -566,6 +568,8 @@ TEST(RvizFile, NamesWhatIsDrawnOtherwise) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: 1e9}", "its Offset is too far"},
       {"Class: rviz/Grid, Plane Cell Count: 4000, Alpha: 1", "Plane Cell Count 4000 is taken"},
+      {"Class: rviz/Grid, Color: red", "Color 'red' is no r; g; b"},
+      {"Class: rviz/Grid, Alpha: none", "Alpha none is 0: it is not seen"},
       {"Class: rviz/Path, Topic: /a, Offset: {X: 1, Y: 0, Z: 0}", "Offset is not taken: the path"},
       {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},
       {"Class: rviz/RobotModel, Links: {a: {Value: false}, b: {Value: true}, c: {Value: false}}",
@@ -727,6 +731,9 @@ TEST(RvizFile, HasGridsAsTopics) {
   EXPECT_TRUE(grid_of(", Reference Frame: table").floor_differs);
   EXPECT_FALSE(grid_of(", Plane: YZ").is_floor);
   EXPECT_EQ(grid_of(", Reference Frame: /table").name, "grid:table");
+  EXPECT_EQ(grid_of(", Reference Frame: /table").style, "(missing=origin)");
+  EXPECT_EQ(grid_of(", Plane Cell Count: 3.7").style, "(cells=1)") << "no whole number is 0";
+  EXPECT_EQ(grid_of(", Alpha: 1, Alpha: 0.25").style, "(alpha=0.25)") << "the last one counts";
   EXPECT_EQ(grid_of(", Plane: XZ, Cell Size: 0.5, Plane Cell Count: 20, Normal Cell Count: 2, "
                     "Color: 255; 0; 0, Alpha: 1, Offset: {X: 1, Y: 0, Z: -0.9}, "
                     "Line Style: {Value: Billboards, Line Width: 0.05}")
@@ -750,7 +757,7 @@ TEST(ShownTopics, HaveGrids) {
   EXPECT_EQ(second.style.grid.layers, 2);
   EXPECT_EQ(second.style.grid.plane, GridStyle::Plane::kYz);
   EXPECT_THAT(second.style.grid.offset, ElementsAre(1, -2, 0.5));
-  EXPECT_TRUE(second.style.grid.stands_in_scene);
+  EXPECT_TRUE(second.style.stands_in_scene && !second.style.is_told_missing);
   for (const char* wrong :
        {"grid:*", "grid:a b", "grid:(cells=0)", "grid:(cells=1001)", "grid:(cells=2.5)",
         "grid:(layers=21)", "grid:(cells=200,layers=1)", "grid:(plane=zx)", "grid:(at=1|2)",
@@ -798,7 +805,8 @@ Visualization Manager:
   std::vector<std::string> items;
   for (const RvizPicture::Topic& topic : picture.topics) items.push_back(topic.name + topic.style);
   EXPECT_THAT(items, ElementsAre("tf:base_link(size=2,width=0.5,alpha=0.5)",
-                                 "tf:odom(size=1,width=0.1)", "tf:odom(size=10,width=0.1)"));
+                                 "tf:odom(size=1,width=0.1,missing=scene)",
+                                 "tf:odom(size=10,width=0.1,missing=scene)"));
   EXPECT_THAT(picture.remarks,
               Contains(HasSubstr("'Bad' is not drawn: 'a b' is no name of a frame")));
   ShownTopicsValue value;

@@ -293,6 +293,53 @@ TEST(Frames, AreThoseOfTheNewTimeAfterTimeWasSetBack) {
   EXPECT_EQ(x("wall"), 4) << "a static frame is sent once";
 }
 
+// One message of the future: tf2 refused all that came then, with two lines each.
+TEST(Frames, OfOneThatWasInTheFutureComeBackAndOthersStay) {
+  TfTree tf;
+  const auto at = [](const std::string& child, double x, int nanos) {
+    tf2_msgs::TFMessage message = Frame("world", child, x);
+    message.transforms[0].header.stamp = ros::Time(2, static_cast<std::uint32_t>(nanos));
+    return message;
+  };
+  ASSERT_FALSE(tf.Add(at("robot", 7, 0), false));
+  tf2_msgs::TFMessage future = Frame("world", "door", 1);
+  future.transforms[0].header.stamp = ros::Time(3602, 0);
+  ASSERT_FALSE(tf.Add(future, false));
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  int refused = 0;
+  for (int i = 1; i <= 30; ++i) {
+    refused += tf.Add(at("door", 3, i), false) ? 1 : 0;
+    EXPECT_FALSE(tf.Add(at("person", 4, i), false)) << "others go on";
+  }
+  EXPECT_EQ(refused, 19);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  const auto x = [&](const std::string& frame) {
+    const auto pose = tf.Find("world", frame, 2'000'000'000);
+    return pose ? pose->position.x() : kNan;
+  };
+  EXPECT_EQ(x("door"), 3);
+  EXPECT_EQ(x("robot"), 7) << "of which one came, once";
+  EXPECT_EQ(x("person"), 4);
+}
+
+// A sender whose clock is late, of many frames: none of the others is forgotten.
+TEST(Frames, OfOthersStayWhenOneIsLate) {
+  TfTree tf;
+  tf2_msgs::TFMessage now = Frame("world", "robot", 7), late = Frame("world", "plate", 1);
+  now.transforms[0].header.stamp = ros::Time(100, 0);
+  ASSERT_FALSE(tf.Add(now, false));
+  now.transforms[0].child_frame_id = "plate";
+  ASSERT_FALSE(tf.Add(now, false));
+  late.transforms.resize(25, late.transforms[0]);
+  for (std::uint32_t i = 0; i < 25; ++i) late.transforms[i].header.stamp = ros::Time(40, i);
+  tf.Add(late, false);
+  const auto robot = tf.Find("world", "robot", 100'000'000'000);
+  ASSERT_TRUE(robot);
+  EXPECT_EQ(robot->position.x(), 7);
+}
+
 // As of a simulator that pauses: tf2 refused each, with a line in the log, and after twenty of them
 // all frames were forgotten, as if time had been set back.
 TEST(Frames, StayWhenTheNewestTransformComesAgainAndAgain) {

@@ -58,7 +58,9 @@ class LaunchFiles(unittest.TestCase):
             rviz = load("rviz.launch", node=node).nodes[0]
             self.assertEqual(rviz.args.split()[-2:], ["--node", wanted])
 
-        self.assertEqual(load("bridge.launch", node="/lab").nodes[0].name, "lab")
+        for given, wanted in (("/lab", "/lab"), ("ns/lab", "/ns/lab"), ("", "/kinescope")):
+            bridge = load("bridge.launch", node=given).nodes[0]
+            self.assertEqual((bridge.namespace + "/" + bridge.name).replace("//", "/"), wanted)
 
     def test_paths_are_those_of_the_shell(self):
         with unittest.mock.patch.dict(os.environ, PWD="/here", HOME="/home/me"):
@@ -67,6 +69,9 @@ class LaunchFiles(unittest.TestCase):
                 for name, node in (("kinescope.launch", "kinescope"), ("monitor.launch", "kinescope_monitor")):
                     self.assertEqual(load(name, token_file=given).params[f"/{node}/token_file"].value, wanted)
             self.assertEqual(load("kinescope.launch").params["/kinescope/token_file"].value, "")
+            for given, wanted in (("a.bag", "/here/a.bag"), ("~/a.bag", "/home/me/a.bag"), ("/a.bag", "/a.bag"), ("udp://:9763", "udp://:9763")):
+                for name in ("kinescope.launch", "bridge.launch"):
+                    self.assertEqual(load(name, source=given).params["/kinescope/source"].value, wanted)
 
     def test_refuse_what_is_neither_true_nor_false(self):
         for name, argument in (("kinescope.launch", "rviz"), ("demo.launch", "rviz"), ("xsens_client.launch", "launch_rviz")):

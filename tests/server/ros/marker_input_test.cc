@@ -128,7 +128,7 @@ TEST(MarkerStore, HasGridsInTheirFrameOrThatOfTheScene) {
   grid.name = "cart";
   MarkerStore strict, lenient;
   strict.AddOfFrame(0, grid);
-  grid.style.grid.stands_in_scene = true;
+  grid.style.stands_in_scene = true;
   lenient.AddOfFrame(0, grid);
   Cart cart;
   cart.x.reset();

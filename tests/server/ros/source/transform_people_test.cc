@@ -71,6 +71,15 @@ class TransformPeopleTest : public ::testing::Test {
   kinescope::testing::RecordingSink sink_;
 };
 
+// Of tags, or of people who come and go: nobody was found as long as they did.
+TEST_F(TransformPeopleTest, FindsPeopleThoughNewNamesComeAllTheTime) {
+  for (int n = 0; n < 120; ++n) {
+    Take(n, FrameAtOrigin("world", "x" + std::to_string(n) + "_pelvis"));
+    Take(n, TransformsOf(PersonAt(n)));
+  }
+  EXPECT_GE(sink_.samples.size(), 15u);
+}
+
 TEST_F(TransformPeopleTest, ReturnsThePublishedPosesWhenAllNamesAreKnown) {
   Settle();
   for (int n = 0; n < 20; ++n) {
