@@ -24,6 +24,9 @@ const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
   const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   constexpr double kMaxOff = 0.01;
   if (stamped.child_frame_id.empty() || stamped.header.frame_id.empty()) return "without a name";
+  if (std::max(stamped.child_frame_id.size(), stamped.header.frame_id.size()) > kLongestFrameName) {
+    return "with a name that is too long";
+  }
   if (stamped.child_frame_id == stamped.header.frame_id) return "whose parent is itself";
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || !std::isfinite(norm)) {
     return "with a number that is not finite";
@@ -36,7 +39,8 @@ const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
 // one message of the future.
 constexpr int kTooOldForAJump = 20;
 const ros::Duration kKept(tf2::BufferCore::DEFAULT_CACHE_TIME);
-constexpr std::size_t kMostOfName = 100;  // bytes, in a line of the log
+constexpr std::size_t kLongestFrameName = 255;  // bytes
+constexpr std::size_t kMostOfName = 100;        // bytes, in a line of the log
 constexpr char kTooOld[] = "that is older than all that is kept";
 
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {
@@ -55,6 +59,8 @@ TfTree::TfTree() {
 const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool is_static) {
   if (const char* const wrong = WhatIsWrong(transform)) return wrong;
   const std::string frame = WithoutSlash(transform.child_frame_id);
+  // tf2 keeps every name for good.
+  if (frames_.size() >= kMostFrameNames && frames_.count(frame) == 0) return "of a further frame";
   if (is_static) {
     if (!buffer_.setTransform(transform, "/tf", true)) return kTooOld;
     Note(frame, transform);

@@ -30,6 +30,8 @@ struct TreeFrame {
 /// they are known from the newest sample, and tf2 would ignore them after a recording starts over.
 class TfTree {
  public:
+  static constexpr std::size_t kMostFrameNames = 50'000;  // transforms of further ones are refused
+
   TfTree();
 
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,

@@ -352,10 +352,21 @@ TEST(Frames, StayWhenTheNewestTransformComesAgainAndAgain) {
   EXPECT_TRUE(tf.Find("world", "door", 2'000'000'000));
 }
 
+TEST(Frames, HaveALimitedNumberOfNames) {
+  TfTree tf;
+  for (std::size_t i = 0; i < TfTree::kMostFrameNames; ++i) {
+    ASSERT_EQ(tf.Add(Frame("world", "f" + std::to_string(i), 1), false).has_value(),
+              i + 1 == TfTree::kMostFrameNames)
+        << i << ", and the world";
+  }
+  EXPECT_FALSE(tf.Add(Frame("world", "f0", 2), true)) << "those that are known go on";
+}
+
 TEST(Frames, AreRejectedIfInvalid) {
   TfTree tf;
   EXPECT_TRUE(tf.Add(Frame("world", "world", 0), false));
   EXPECT_TRUE(tf.Add(Frame("", "plate", 0), false));
+  EXPECT_TRUE(tf.Add(Frame("world", std::string(256, 'x'), 0), false));
   const auto refusal = tf.Add(Frame("world", "plate", kNan), false);
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->text, "a transform with a number that is not finite: 'plate' in 'world'");
