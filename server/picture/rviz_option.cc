@@ -75,6 +75,24 @@ std::string NameOf(const RvizPicture::Topic& topic) {
   return topic.is_every_frame ? name : name + topic.style;
 }
 
+// What is drawn in its place, if anything, where the source has no topics.
+void NameWithoutTopics(const std::string& place, const RvizPicture::Topic& topic) {
+  constexpr char kWhere[] = "the source has no topics (a bag has, and serve with ROS)";
+  if (topic.is_floor && !topic.floor_differs) {
+    spdlog::info("{}{}: the floor of the scene is drawn in its place", place, topic.display);
+  } else if (topic.is_floor) {
+    spdlog::warn("{}{} lies elsewhere than the floor, which is drawn in its place: {}", place,
+                 topic.display, kWhere);
+  } else if (topic.is_every_frame) {
+    spdlog::warn(
+        "{}{}: of frames, only the axes of people's links are drawn: the source has no TF (a bag "
+        "has, and serve with ROS)",
+        place, topic.display);
+  } else if (!topic.is_of_people) {
+    spdlog::warn("{}{} is not drawn: {}", place, topic.display, kWhere);
+  }
+}
+
 // Shown where there are topics; otherwise they are named.
 void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>& topics,
                  options::OptionList& list) {
@@ -87,29 +105,13 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
     if (!is_possible) {
-      if (topic.is_floor) {
-        if (topic.floor_differs) {
-          spdlog::warn(
-              "{}{} lies elsewhere than the floor, which is drawn in its place: the source "
-              "has no topics (a bag has, and serve with ROS)",
-              place, topic.display);
-        } else {
-          spdlog::info("{}{}: the floor of the scene is drawn in its place", place, topic.display);
-        }
-      } else if (topic.is_every_frame) {
-        spdlog::warn(
-            "{}{}: of frames, only the axes of people's links are drawn: the source has no "
-            "TF (a bag has, and serve with ROS)",
-            place, topic.display);
-      } else if (!topic.is_of_people) {
-        spdlog::warn("{}{} is not drawn: the source has no topics (a bag has, and serve with ROS)",
-                     place, topic.display);
-      }
-    } else if (std::find(names.begin(), names.end(), NameOf(topic)) != names.end()) {
-      continue;  // the same again
-    } else if (has_floor_of_page && topic.is_floor && !topic.floor_differs) {
+      NameWithoutTopics(place, topic);
       continue;
-    } else if (names.size() + items_beside == kMostShownTopics) {
+    }
+    const bool is_known = std::find(names.begin(), names.end(), NameOf(topic)) != names.end();
+    const bool is_floor_of_page = has_floor_of_page && topic.is_floor && !topic.floor_differs;
+    if (is_known || is_floor_of_page) continue;
+    if (names.size() + items_beside == kMostShownTopics) {
       spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, names.size());
     } else {
       names.push_back(NameOf(topic));

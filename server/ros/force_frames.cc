@@ -17,6 +17,8 @@
 namespace kinescope::ros_bridge {
 namespace {
 
+constexpr std::size_t kLongestFrameName = 255;  // bytes
+
 // Null: nothing.
 const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
   const auto& p = stamped.transform.translation;
@@ -39,8 +41,7 @@ const char* WhatIsWrong(const geometry_msgs::TransformStamped& stamped) {
 // one message of the future.
 constexpr int kTooOldForAJump = 20;
 const ros::Duration kKept(tf2::BufferCore::DEFAULT_CACHE_TIME);
-constexpr std::size_t kLongestFrameName = 255;  // bytes
-constexpr std::size_t kMostOfName = 100;        // bytes, in a line of the log
+constexpr std::size_t kMostOfName = 100;  // bytes, in a line of the log
 constexpr char kTooOld[] = "that is older than all that is kept";
 
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {

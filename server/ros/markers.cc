@@ -6,6 +6,7 @@
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
+#include "core/system/starts_with.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
 

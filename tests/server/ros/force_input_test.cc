@@ -359,7 +359,7 @@ TEST(Frames, HaveALimitedNumberOfNames) {
               i + 1 == TfTree::kMostFrameNames)
         << i << ", and the world";
   }
-  EXPECT_FALSE(tf.Add(Frame("world", "f0", 2), true)) << "those that are known go on";
+  EXPECT_FALSE(tf.Add(Frame("world", "f0", 2), false)) << "those that are known go on";
 }
 
 TEST(Frames, AreRejectedIfInvalid) {
