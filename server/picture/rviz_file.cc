@@ -36,8 +36,17 @@ constexpr double kLeastAhead = 0.1;              // m, from a camera to its targ
 constexpr double kWidestHalf = 75 * M_PI / 180;  // rad, of the field of view
 constexpr double kFarthestCamera = 1000;         // m, of a camera
 constexpr double kNearest = 0.05;                // m, a clip distance that cuts nothing off
-// Namespaces of our markers, which are the names of the parts that they show.
-constexpr const char* kMarkerParts[] = {"loads", "com", "cop", "support", "forces", "hand_loads"};
+// A namespace of our markers (server/ros/markers.h), and the part of the scene that they show.
+struct MarkerPart {
+  const char* ns;
+  const char* part;
+};
+constexpr MarkerPart kMarkerParts[] = {{"loads", "loads"},
+                                       {"com", "com"},
+                                       {"cop", "cop"},
+                                       {"support", "support"},
+                                       {"foot_forces", "forces"},
+                                       {"hand_loads", "hand_loads"}};
 
 // A text of the file may be long, and must do nothing to a terminal.
 std::string Shown(const std::string& text) {
@@ -488,8 +497,8 @@ class RvizReader {
     for (const auto& each : namespaces) {
       if (!each.first.IsScalar()) continue;
       const std::string name = each.first.as<std::string>();
-      const bool is_part = std::find(std::begin(kMarkerParts), std::end(kMarkerParts), name) !=
-                           std::end(kMarkerParts);
+      const bool is_part = std::any_of(std::begin(kMarkerParts), std::end(kMarkerParts),
+                                       [&](const MarkerPart& each) { return name == each.ns; });
       if ((is_ours && is_part) || BoolOf(namespaces, name, true)) continue;
       if (!rviz::AddHidden(name, names)) {
         Remark(display, called + ": the namespace " + Quoted(name) + " is not left out");
@@ -504,15 +513,16 @@ class RvizReader {
     if (!EndsWith("/" + TextOf(display, "Marker Topic", ""), "/markers")) return false;
     const YAML::Node namespaces = Member(display, "Namespaces");
     if (!namespaces.IsDefined() || !namespaces.IsMap() || namespaces.size() == 0) return true;
-    return std::any_of(std::begin(kMarkerParts), std::end(kMarkerParts),
-                       [&](const char* part) { return Member(namespaces, part).IsDefined(); });
+    return std::any_of(
+        std::begin(kMarkerParts), std::end(kMarkerParts),
+        [&](const MarkerPart& each) { return Member(namespaces, each.ns).IsDefined(); });
   }
 
   // Parts are drawn that some display of our markers shows.
   void ReadParts(const YAML::Node& display) {
     const YAML::Node namespaces = Member(display, "Namespaces");
-    for (const char* part : kMarkerParts) {
-      if (BoolOf(namespaces, part, true)) shown_parts_.insert(part);
+    for (const auto& [ns, part] : kMarkerParts) {
+      if (BoolOf(namespaces, ns, true)) shown_parts_.insert(part);
     }
   }
 
@@ -523,7 +533,7 @@ class RvizReader {
     std::string hidden = "shadows";  // RViz has none
     if (!has_model_) hidden += ",body";
     if (!has_markers_ && picture_.topics.empty()) hidden += ",markers";  // the way of all topics
-    for (const char* part : kMarkerParts) {
+    for (const auto& [ns, part] : kMarkerParts) {
       if (shown_parts_.count(part) == 0) hidden += std::string(",") + part;
     }
     Set("hide", hidden, line);

@@ -108,6 +108,9 @@ TEST(RvizFile, ShowsLoadsOnlyWhereADisplayHasOurMarkers) {
   EXPECT_EQ(hidden("Marker Topic: /kinescope/markers"), "shadows,body");
   EXPECT_EQ(hidden("Marker Topic: /lab/anna/markers, Namespaces: {loads: false}"),
             "shadows,body,loads");
+  EXPECT_EQ(hidden("Marker Topic: /kinescope/markers, Namespaces: {foot_forces: false}"),
+            "shadows,body,forces")
+      << "the name of the namespace, not of the part";
   EXPECT_EQ(hidden("Marker Topic: /carla/markers, Namespaces: {\"\": true}"), all);
   EXPECT_EQ(hidden("Marker Topic: /viz, Namespaces: {com: false}"), all);
 }
