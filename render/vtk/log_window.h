@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "render/once_log.h"
 #include "render/renderer.h"
-#include "render/shape/once_log.h"
 
 namespace kinescope::render {
 

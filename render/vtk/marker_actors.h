@@ -10,8 +10,8 @@
 #include "core/scene_state.h"
 #include "render/camera/picture_region.h"
 #include "render/module.h"
+#include "render/once_log.h"
 #include "render/shape/marker_shapes.h"
-#include "render/shape/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/point_actor.h"
 

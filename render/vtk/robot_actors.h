@@ -9,8 +9,8 @@
 #include "core/scene_state.h"
 #include "render/camera/picture_region.h"
 #include "render/module.h"
+#include "render/once_log.h"
 #include "render/scene_look.h"
-#include "render/shape/once_log.h"
 #include "render/shape/visual_mesh.h"
 #include "render/vtk/part_actor.h"
 

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <set>
 
 #include "core/system/errors.h"
+#include "render/once_log.h"
 #include "server/picture/backend_probe.h"
 
 namespace kinescope::app {
@@ -39,12 +39,11 @@ BackendChoice ChooseByTrying(const std::vector<std::string>& gpus,
 
 // Each renderer says once what is wrong with a mesh; all of this process together, too.
 void WarnOnce(const std::string& line) {
-  constexpr std::size_t kMost = 1000;
+  static const render::LogLine log = [](const std::string& text) { spdlog::warn("{}", text); };
   static std::mutex mutex;
-  static std::set<std::string> said;  // guarded by mutex
+  static render::OnceLog once(log);  // guarded by mutex
   const std::lock_guard<std::mutex> lock(mutex);
-  if (said.size() >= kMost) said.clear();  // limits memory: names are untrusted
-  if (said.insert(line).second) spdlog::warn("{}", line);
+  once(line);
 }
 
 options::Choice<std::string>::Words BackendWords() {

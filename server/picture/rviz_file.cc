@@ -167,58 +167,40 @@ class RvizReader {
     }
   }
 
-  // Without topics, the floor of the scene takes its place where it lies.
-  void ReadGrid(const YAML::Node& display, const std::string& called) {
+  struct ReferenceFrame {
+    std::string name;  // "": that of the scene
+    bool is_fixed = false;
+  };
+  // nullopt, and named: the display cannot be drawn.
+  std::optional<ReferenceFrame> ReferenceFrameOf(const YAML::Node& display,
+                                                 const std::string& called) {
     const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
     const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
-    const std::string frame = is_fixed ? FixedFrame() : saved;
-    if (!frame.empty() && !IsFrameName(frame)) {
-      Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
-      return;
-    }
-    const std::string plane = TextOf(display, "Plane", "XY");
-    const bool is_level = plane != "XZ" && plane != "YZ";
-    const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
-    RvizPicture::Topic grid{kGridInFrame + frame,
-                            GridStyleOf(display, called,
-                                        frame.empty() ? ""
-                                        : is_fixed    ? "missing=scene"
-                                                      : "missing=origin"),
-                            Shown(called), false, LineOf(display)};
-    if (is_level) {
-      has_floor_ = true;
-      grid.is_floor = true;
-      grid.floor_differs = !is_fixed || !offset.isZero();
-    }
-    picture_.topics.push_back(std::move(grid));
+    std::string name = is_fixed ? FixedFrame() : saved;
+    if (name.empty() || IsFrameName(name)) return ReferenceFrame{std::move(name), is_fixed};
+    Remark(display, called + " is not drawn: " + Quoted(name) + " is no name of a frame");
+    return std::nullopt;
   }
 
-  // What differs from a grid of ours, which is RViz's usual one.
-  std::string GridStyleOf(const YAML::Node& display, const std::string& called,
-                          const std::string& missing) {
-    std::vector<std::string> items;
-    const auto limited = [&](const YAML::Node& of, const char* property, double usual, double least,
-                             double most) {
-      const rviz::Limit limit = rviz::LimitOf(of, property, usual, least, most);
-      if (!limit.remark.empty()) Remark(display, called + ": " + limit.remark);
-      return limit.value;
-    };
-    const auto add = [&](const char* key, double value, double usual) {
-      if (value != usual) items.push_back(key + ("=" + options::NumberText(value)));
-    };
-    add("size", limited(display, "Cell Size", 1, kSmallestShown, kLargestShown), 1);
-    // As of a text, of which a number with a fraction is none.
-    const auto whole = [&](const char* property, double usual, double least, double most) {
-      const double value = limited(display, property, usual, least, most);
-      return value == std::floor(value) ? value : least;
-    };
-    const double layers = whole("Normal Cell Count", 0, 0, kMostGridLayers);
-    const int most = layers > 0 ? kMostLayeredCells : kMostGridCells;
-    add("cells", whole("Plane Cell Count", 10, 1, most), 10);
-    add("layers", layers, 0);
+  // Named, where the file has another number.
+  double Limited(const YAML::Node& of, const char* property, double usual, double least,
+                 double most, const std::string& called) {
+    const rviz::Limit limit = rviz::LimitOf(of, property, usual, least, most);
+    if (!limit.remark.empty()) Remark(of, called + ": " + limit.remark);
+    return limit.value;
+  }
+
+  // Without topics, the floor of the scene takes its place where it lies.
+  void ReadGrid(const YAML::Node& display, const std::string& called) {
+    const auto frame = ReferenceFrameOf(display, called);
+    if (!frame) return;
     const std::string plane = TextOf(display, "Plane", "XY");
-    if (plane == "XZ" || plane == "YZ") items.push_back(plane == "XZ" ? "plane=xz" : "plane=yz");
     const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
+    // Where they differ from a grid of ours, which is RViz's usual one.
+    std::vector<std::string> items;
+    AddCells(display, called, items);
+    if (plane == "XZ") items.emplace_back("plane=xz");
+    if (plane == "YZ") items.emplace_back("plane=yz");
     if (offset.cwiseAbs().maxCoeff() > kFarthestCamera) {
       Remark(display, called + ": its Offset is too far, and is not taken");
     } else if (!offset.isZero()) {
@@ -226,6 +208,41 @@ class RvizReader {
                                   options::NumberText(offset.y()),
                                   options::NumberText(offset.z())));
     }
+    AddLines(display, called, items);
+    if (!frame->name.empty()) {
+      items.emplace_back(frame->is_fixed ? "missing=scene" : "missing=origin");
+    }
+    RvizPicture::Topic grid{kGridInFrame + frame->name,
+                            items.empty() ? "" : fmt::format("({})", fmt::join(items, ",")),
+                            Shown(called), false, LineOf(display)};
+    grid.is_floor = plane != "XZ" && plane != "YZ";
+    grid.floor_differs = !frame->is_fixed || !offset.isZero();
+    has_floor_ = has_floor_ || grid.is_floor;
+    picture_.topics.push_back(std::move(grid));
+  }
+
+  static void AddItem(const char* key, double value, double usual,
+                      std::vector<std::string>& items) {
+    if (value != usual) items.push_back(key + ("=" + options::NumberText(value)));
+  }
+
+  void AddCells(const YAML::Node& display, const std::string& called,
+                std::vector<std::string>& items) {
+    AddItem("size", Limited(display, "Cell Size", 1, kSmallestShown, kLargestShown, called), 1,
+            items);
+    // As of a text, of which a number with a fraction is none.
+    const auto whole = [&](const char* property, double usual, double least, double most) {
+      const double value = Limited(display, property, usual, least, most, called);
+      return value == std::floor(value) ? value : least;
+    };
+    const double layers = whole("Normal Cell Count", 0, 0, kMostGridLayers);
+    const int most = layers > 0 ? kMostLayeredCells : kMostGridCells;
+    AddItem("cells", whole("Plane Cell Count", 10, 1, most), 10, items);
+    AddItem("layers", layers, 0, items);
+  }
+
+  void AddLines(const YAML::Node& display, const std::string& called,
+                std::vector<std::string>& items) {
     if (const auto color = rviz::ColorOf(display, "Color", kGridColor)) {
       if (*color != kGridColor) items.push_back("color=" + ToHex(*color));
     } else {
@@ -234,25 +251,25 @@ class RvizReader {
     }
     const double alpha = rviz::NumberOf(display, "Alpha", 0.5, 0, 1);
     if (alpha == 0) Remark(display, called + ": " + Invisible(display));
-    add("alpha", alpha, 0.5);
-    if (!missing.empty()) items.push_back(missing);
+    AddItem("alpha", alpha, 0.5, items);
     const YAML::Node style = Member(display, "Line Style");
     if (TextOf(style, "Value", "Lines") == "Billboards") {
-      add("width", limited(style, "Line Width", 0.03, kSmallestShown, kLargestShown), 0);
+      const double width =
+          Limited(style, "Line Width", 0.03, kSmallestShown, kLargestShown, called);
+      AddItem("width", width, 0, items);
     }
-    return items.empty() ? "" : fmt::format("({})", fmt::join(items, ","));
   }
 
   static std::string Invisible(const YAML::Node& display) {
     return "Alpha " + Shown(TextOf(display, "Alpha", "")) + " is 0: it is not seen";
   }
 
-  void NameOffset(const YAML::Node& display, const std::string& called, const char* otherwise) {
+  void NameOffsetOfPath(const YAML::Node& display, const std::string& called) {
     const YAML::Node offset = Member(display, "Offset");
     if (!offset.IsDefined() || !offset.IsMap()) return;
     for (const char* const axis : {"X", "Y", "Z"}) {
       if (rviz::NumberOf(offset, axis, 0, -kFarthestCamera, kFarthestCamera) == 0) continue;
-      return Remark(display, called + ": Offset is not taken: " + otherwise);
+      return Remark(display, called + ": Offset is not taken: the path is where it is");
     }
   }
 
@@ -328,7 +345,7 @@ class RvizReader {
   std::string StyleOf(const YAML::Node& display, const std::string& kind,
                       const std::string& called) {
     rviz::TopicStyle style = rviz::StyleOf(display, kind);
-    if (kind == "rviz/Path") NameOffset(display, called, "the path is where it is");
+    if (kind == "rviz/Path") NameOffsetOfPath(display, called);
     for (const std::string& remark : style.remarks) Remark(display, called + ": " + remark);
     return std::move(style.text);
   }
@@ -406,27 +423,19 @@ class RvizReader {
   }
 
   void ReadAxes(const YAML::Node& display, const std::string& called) {
-    const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
-    const std::string frame =
-        saved == "<Fixed Frame>" || saved == picture_.fixed_frame ? FixedFrame() : saved;
-    if (!frame.empty() && !IsFrameName(frame)) {
-      Remark(display, called + " is not drawn: " + Quoted(frame) + " is no name of a frame");
-      return;
-    }
+    const auto frame = ReferenceFrameOf(display, called);
+    if (!frame) return;
     const auto metres = [&](const char* property, double usual) {
-      const rviz::Limit limit =
-          rviz::LimitOf(display, property, usual, kSmallestShown, kLargestShown);
-      if (!limit.remark.empty()) Remark(display, called + ": " + limit.remark);
-      return options::NumberText(limit.value);
+      return options::NumberText(
+          Limited(display, property, usual, kSmallestShown, kLargestShown, called));
     };
     if (BoolOf(display, "Show Trail", false)) Remark(display, called + ": it has no trail");
-    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
     std::string style = "(size=" + metres("Length", 1) + ",width=" + metres("Radius", 0.1);
     const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
     if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
-    if (is_fixed && !frame.empty()) style += ",missing=scene";
+    if (frame->is_fixed && !frame->name.empty()) style += ",missing=scene";
     picture_.topics.push_back(
-        {kAxesOfFrame + frame, style + ")", Shown(called), false, LineOf(display)});
+        {kAxesOfFrame + frame->name, style + ")", Shown(called), false, LineOf(display)});
   }
 
   // "": that of the scene; so is RViz's usual one, which need not be there.

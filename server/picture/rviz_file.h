@@ -2,7 +2,6 @@
 /// parts of people. docs/rviz_files.md
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -100,7 +100,6 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   const bool is_possible = option != nullptr && HasTopics(list);
   std::vector<std::string> names;
   std::vector<std::string> items = {kNoOtherTopics};  // RViz hears what its displays name
-  const std::size_t items_beside = items.size();
   const bool has_floor_of_page = list.Find("floor") == nullptr;  // each viewer of `serve` has one
   for (const RvizPicture::Topic& topic : topics) {
     const std::string place = fmt::format("{}:{}: ", file, topic.line);
@@ -111,7 +110,7 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
     const bool is_known = std::find(names.begin(), names.end(), NameOf(topic)) != names.end();
     const bool is_floor_of_page = has_floor_of_page && topic.is_floor && !topic.floor_differs;
     if (is_known || is_floor_of_page) continue;
-    if (names.size() + items_beside == kMostShownTopics) {
+    if (items.size() == kMostShownTopics) {
       spdlog::warn("{}{} is not drawn: more than {} topics", place, topic.display, names.size());
     } else {
       names.push_back(NameOf(topic));

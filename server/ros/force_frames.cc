@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <utility>
 
 #include "core/system/starts_with.h"
 #include "server/ros/raw_message.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
-#include <ros/time.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -11,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "core/scene_state.h"
 #include "server/ros/names.h"

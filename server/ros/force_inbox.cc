@@ -22,7 +22,9 @@ constexpr char kGroundCop[] = "ground_cop";
 constexpr char kExternalLoads[] = "external_loads";
 constexpr char kExternalJointStates[] = "external_joint_states";
 
-constexpr char kNoPerson[] = "no person";  // yet, which is no error
+Refusal NoPersonYet() {
+  return {"no person", "no person has been received yet", /*is_in_log=*/false};
+}
 
 // Only the newest message counts of a sensor that is faster than the suit.
 constexpr std::uint32_t kForceQueue = 32;
@@ -64,7 +66,7 @@ void ForceInbox::Refuse(const std::string& topic, const Refusal& refusal) {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_first = CountRefused(refusal, counters_[topic]);
   }
-  if (is_first && std::string_view(refusal.kind) != kNoPerson) WarnOfRefused(topic, refusal);
+  if (is_first) WarnOfRefused(topic, refusal);
 }
 
 // A header without a time counts as new as the sample; the result is compared with the sample's
@@ -85,7 +87,7 @@ std::int64_t ForceInbox::StampOf(const char* topic, const std_msgs::Header& head
 
 std::optional<FoundFrame> ForceInbox::Place(const char* topic, const std_msgs::Header& header) {
   if (!body_) {
-    Refuse(topic, {kNoPerson, "no person has been received yet"});
+    Refuse(topic, NoPersonYet());
     return std::nullopt;
   }
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
@@ -228,7 +230,7 @@ void ForceInbox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
 
 void ForceInbox::OnExternalJointStates(const sensor_msgs::JointState& message) {
   if (!body_) {
-    return Refuse(kExternalJointStates, {kNoPerson, "no person has been received yet"});
+    return Refuse(kExternalJointStates, NoPersonYet());
   }
   UseExternal(kExternalJointStates, ToExternalLoads(message, *body_, settings_.external_scale),
               StampOf(kExternalJointStates, message.header));

@@ -82,8 +82,10 @@ void MarkerDecoder::Decode(std::size_t topic, const Event& event, bool has_color
   const std::string type = Said(event, "md5sum");
   const ShownTopic& shown = topics_[topic];
   if (raw.bytes.empty()) {  // of a larger one roscpp delivers nothing
-    to.refusal = {kEmptyMessage, fmt::format("a message that is empty, or larger than {} MiB",
-                                             kLargestMessage >> 20U)};
+    to.refusal = {
+        "empty, or too large",
+        fmt::format("a message that is empty, or larger than {} MiB", kLargestMessage >> 20U),
+        /*is_in_log=*/false};  // tcpros_limits.h
   } else if (has_colors) {
     to.refusal = shown_.TakeColors(topic, type, raw.bytes);
   } else if (IsSingle(type) || IsArray(type)) {

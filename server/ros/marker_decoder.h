@@ -24,10 +24,6 @@
 
 namespace kinescope::ros_bridge {
 
-/// Kind of refusal of a message without bytes: it was too large, which the log has
-/// (tcpros_limits.h).
-inline constexpr char kEmptyMessage[] = "empty, or too large";
-
 /// What a message has, or why it has nothing.
 struct DecodedMessage {
   std::size_t topic = 0;

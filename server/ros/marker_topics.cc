@@ -27,8 +27,6 @@ constexpr std::size_t kMostWaiting = 2 * kMaxPointsOfAll;  // points
 // The page has new markers ten times a second, and the history keeps each list of them.
 constexpr std::int64_t kFramesEveryNanos = 50'000'000;
 
-constexpr char kOfKinescope[] = "of Kinescope";
-
 std::vector<ShownTopic> Resolved(std::vector<ShownTopic> topics) {
   for (ShownTopic& topic : topics) {
     if (topic.is_frame) continue;
@@ -164,7 +162,8 @@ void MarkerInbox::CountUsed(std::size_t topic) {
 void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
                        std::int64_t monotonic_nanos) {
   if (IsOwnMarker(topics_[topic].name, message.ns)) {
-    return Refuse(topic, {kOfKinescope, "markers of Kinescope: the scene has them already"});
+    return Refuse(topic, {"of Kinescope", "markers of Kinescope: the scene has them already",
+                          /*is_in_log=*/false});
   }
   if (const auto refusal = store_.Apply(topic, message, monotonic_nanos, topics_[topic].style)) {
     return Refuse(topic, *refusal);
@@ -179,10 +178,7 @@ void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_first = CountRefused(refusal, counters_[topics_[topic].name]);
   }
-  const std::string_view kind = refusal.kind;
-  if (is_first && kind != kOfKinescope && kind != kEmptyMessage) {
-    WarnOfRefused(topics_[topic].name, refusal);
-  }
+  if (is_first) WarnOfRefused(topics_[topic].name, refusal);
 }
 
 // A frame may come a little later than what stands in it.

@@ -47,7 +47,7 @@ void MakeStale(const PersonModel& model, visualization_msgs::MarkerArray& messag
 /// Turns the markers last sent into their deletions.
 void MakeDeleted(visualization_msgs::MarkerArray& message);
 
-/// Whether it is a namespace of these markers.
+/// Whether a marker of this namespace on this topic is one of these, of whatever Kinescope.
 bool IsOwnMarker(const std::string& topic, const std::string& ns);
 
 }  // namespace kinescope::ros_bridge

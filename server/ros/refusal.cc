@@ -9,7 +9,7 @@ namespace kinescope::ros_bridge {
 bool CountRefused(const Refusal& refusal, InputCounters& counters) {
   ++counters.received;
   counters.last_problem = refusal.text;
-  return ++counters.refused[refusal.kind] == 1;
+  return ++counters.refused[refusal.kind] == 1 && refusal.is_in_log;
 }
 
 void WarnOfRefused(const std::string& topic, const Refusal& refusal) {

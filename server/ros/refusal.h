@@ -10,8 +10,9 @@
 namespace kinescope::ros_bridge {
 
 struct Refusal {
-  const char* kind;  // from a fixed set; key of the counter
-  std::string text;  // one line with the values
+  const char* kind;       // from a fixed set; key of the counter
+  std::string text;       // one line with the values
+  bool is_in_log = true;  // false: it is no error, or the log has it already
 };
 inline Refusal Unreadable() {
   return {"unreadable", "a message that is truncated or has a wrong length field"};
@@ -19,10 +20,10 @@ inline Refusal Unreadable() {
 template <class T>
 using Taken = tl::expected<T, Refusal>;
 
-/// True if it is the first of its kind, which is worth a line in the log.
-[[nodiscard]] bool CountRefused(const Refusal& refusal, InputCounters& counters);
+/// True if it is worth a line in the log: the first of its kind.
+bool CountRefused(const Refusal& refusal, InputCounters& counters);
 
-/// That line.
+/// Of which the next ones are counted only.
 void WarnOfRefused(const std::string& topic, const Refusal& refusal);
 
 }  // namespace kinescope::ros_bridge

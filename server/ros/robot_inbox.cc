@@ -50,12 +50,9 @@ std::string RobotInbox::NameOf(std::size_t i) const {
   return "robot " + (parameter.empty() ? wanted_[i].robot.name : parameter);
 }
 
-void RobotInbox::Refuse(std::size_t i, const std::string& kind, const std::string& text) {
+void RobotInbox::Refuse(std::size_t i, const Refusal& refusal) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  InputCounters& counters = counters_[NameOf(i)];
-  ++counters.received;
-  ++counters.refused[kind];
-  counters.last_problem = text;
+  CountRefused(refusal, counters_[NameOf(i)]);
 }
 
 void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>& urdf) {
@@ -69,7 +66,7 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   if (urdf::IsWrittenByKinescope(*urdf)) {
     spdlog::info("{} is a person of Kinescope, who is shown as one{}", ParameterOf(i),
                  wanted_[i].opacity < 1 ? "; --body_opacity makes people translucent" : "");
-    return Refuse(i, "of Kinescope", "a person of Kinescope: the scene has them already");
+    return Refuse(i, {"of Kinescope", "a person of Kinescope: the scene has them already"});
   }
   RobotState robot;
   try {
@@ -77,7 +74,7 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
         urdf::Translucent(urdf::ParseUrdf(*urdf), wanted_[i].opacity));
   } catch (const urdf::UrdfError& error) {
     spdlog::warn("{}: {}; the robot is not shown", ParameterOf(i), error.what());
-    return Refuse(i, "not a URDF", error.what());
+    return Refuse(i, {"not a URDF", error.what()});
   }
   robot.name = robot.model->name;
   urdf::MeshSearch search = urdf::MakeMeshSearch("", {});
@@ -124,7 +121,7 @@ void RobotInbox::SetProblem(std::size_t i, const std::string& why) {
     if (counters_[NameOf(i)].last_problem == why) return;
   }
   spdlog::warn("{}: {}; the robot is not shown", ParameterOf(i), why);
-  Refuse(i, "cannot be read", why);
+  Refuse(i, {"cannot be read", why});
 }
 
 void RobotInbox::OnJointStates(std::size_t i, const sensor_msgs::JointState& message) {

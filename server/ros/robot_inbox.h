@@ -19,6 +19,7 @@
 #include "server/ros/bridge.h"
 #include "server/ros/effort_rings.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/refusal.h"
 #include "server/ros/robot_frames.h"
 #include "server/ros/robot_loader.h"
 #include "server/ros/scene_frame.h"
@@ -72,7 +73,7 @@ class RobotInbox {
   void WarnOfMissing(std::size_t i);
   void Warn(std::size_t i, std::int64_t monotonic_nanos);
   std::string NameOf(std::size_t i) const;
-  void Refuse(std::size_t i, const std::string& kind, const std::string& text);
+  void Refuse(std::size_t i, const Refusal& refusal);  // who calls it has logged it
   /// Shows it from the next Deliver() on. Any thread.
   void TakeUp(std::size_t i, RobotState robot);
 

@@ -72,10 +72,9 @@ class TransformPeople {
 
   const std::int64_t settle_nanos_;
   PeopleFrames frames_;
-  std::optional<std::int64_t> new_name_at_;  // when the last new name appeared, if people were not
-  std::optional<std::int64_t> first_new_name_at_;  // the first of those since the last search
-                                                   // searched since
-  std::vector<Person> people_;                     // by index of frames_.people()
+  // When the last and the first new name appeared, if people were not searched since.
+  std::optional<std::int64_t> new_name_at_, first_new_name_at_;
+  std::vector<Person> people_;                                     // by index of frames_.people()
   std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child
   std::vector<PeopleFrames::Place> places_;        // of the transforms in the message
   std::map<int, TransformPerson::Slots> touched_;  // by person: their transforms in the message
