@@ -92,6 +92,16 @@ std::optional<std::string> FindSizeDefect(const SceneMarker& marker) {
   return std::nullopt;
 }
 
+// Of its text, or of the name of its mesh.
+std::optional<std::string> FindNameDefect(const SceneMarker& marker) {
+  if (marker.type == MarkerType::kText) {
+    if (marker.text.empty()) return "its text is empty";
+    if (marker.text.size() > kMaxMarkerText) return "its text is longer than 200 bytes";
+  }
+  if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "its mesh name is empty";
+  return std::nullopt;
+}
+
 }  // namespace
 
 const char* Name(MarkerType type) {
@@ -99,24 +109,25 @@ const char* Name(MarkerType type) {
   return index < kNames.size() ? kNames[index] : "unknown";
 }
 
-std::optional<std::string> FindDefect(const SceneMarker& marker) {
-  if (static_cast<std::size_t>(marker.type) >= kNames.size()) {
-    return "its type is " + std::to_string(static_cast<int>(marker.type)) + "; expected 0 to 11";
-  }
-  if (marker.type != MarkerType::kText && !marker.text.empty()) return marker.text;
+std::optional<MarkerDefect> FindDefect(const SceneMarker& marker) {
   const Eigen::Quaterniond& turn = marker.pose.orientation;
-  if (!IsNear(marker.pose.position)) return "its position is not finite, or is beyond 100 km";
+  if (static_cast<std::size_t>(marker.type) >= kNames.size()) {
+    return MarkerDefect{"its type", "its type is " + std::to_string(static_cast<int>(marker.type)) +
+                                        "; expected 0 to 11"};
+  }
+  if (marker.type != MarkerType::kText && !marker.text.empty()) {
+    return MarkerDefect{"its history", marker.text};
+  }
+  if (!IsNear(marker.pose.position)) {
+    return MarkerDefect{"its position", "its position is not finite, or is beyond 100 km"};
+  }
   if (!turn.coeffs().allFinite() || std::abs(turn.norm() - 1) > 1e-3) {
-    return "its orientation is not a unit quaternion";
+    return MarkerDefect{"its orientation", "its orientation is not a unit quaternion"};
   }
-  if (auto defect = FindSizeDefect(marker)) return defect;
-  if (auto defect = FindPointDefect(marker)) return defect;
-  if (auto defect = FindColorDefect(marker)) return defect;
-  if (marker.type == MarkerType::kText) {
-    if (marker.text.empty()) return "its text is empty";
-    if (marker.text.size() > kMaxMarkerText) return "its text is longer than 200 bytes";
-  }
-  if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "its mesh name is empty";
+  if (const auto defect = FindSizeDefect(marker)) return MarkerDefect{"its scale", *defect};
+  if (const auto defect = FindPointDefect(marker)) return MarkerDefect{"its points", *defect};
+  if (const auto defect = FindColorDefect(marker)) return MarkerDefect{"its colors", *defect};
+  if (const auto defect = FindNameDefect(marker)) return MarkerDefect{"its text", *defect};
   return std::nullopt;
 }
 

@@ -58,6 +58,9 @@ inline constexpr char kNamespaceOfFrames[] = "tf";
 /// Of grids, which need no legend, and are no part of what a camera frames.
 inline constexpr char kNamespaceOfGrids[] = "rviz/Grid";
 
+/// Of axes that mark a frame, likewise.
+inline constexpr char kNamespaceOfAxes[] = "rviz/Axes";
+
 /// All that stand in a scene at a time.
 using MarkerList = std::vector<std::shared_ptr<const SceneMarker>>;
 
@@ -65,9 +68,13 @@ constexpr std::size_t kMaxMarkerPoints = 100'000;  // per marker
 constexpr std::size_t kMaxMarkerText = 200;        // bytes
 constexpr double kFarthestMarker = 1e5;  // m; limit of the distance from the origin and of any size
 
-/// Why `marker` cannot be rendered, such as "its scale is not a finite number"; nullopt if it has
-/// no defect.
-[[nodiscard]] std::optional<std::string> FindDefect(const SceneMarker& marker);
+/// Why a marker cannot be rendered.
+struct MarkerDefect {
+  const char* kind;  // "its scale", from a fixed set
+  std::string text;  // "its scale is negative"
+};
+/// nullopt if it has none.
+[[nodiscard]] std::optional<MarkerDefect> FindDefect(const SceneMarker& marker);
 
 /// "walls/3", as used in messages.
 std::string IdentityOf(const SceneMarker& marker);

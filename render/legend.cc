@@ -154,7 +154,8 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
   for (const auto& marker : state.markers) {
     if (!look.Shows(ScenePart::kMarkers)) break;
     // They say themselves what they are.
-    const bool is_known = marker->ns == kNamespaceOfFrames || marker->ns == kNamespaceOfGrids;
+    const bool is_known = marker->ns == kNamespaceOfFrames || marker->ns == kNamespaceOfGrids ||
+                          marker->ns == kNamespaceOfAxes;
     if (marker->type == MarkerType::kText || is_known) continue;
     const Eigen::Vector4d& color = marker->colors.empty() ? marker->color : marker->colors.front();
     markers.Add({{{color[0], color[1], color[2]}, 1},

@@ -59,7 +59,7 @@ bool MarkerReader::HasRoomFor(std::size_t triangles) {
 
 void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
   if (const auto defect = FindDefect(marker)) {
-    to.problems.push_back(NotDrawn(marker, *defect));
+    to.problems.push_back(NotDrawn(marker, defect->text));
     return;
   }
   if (marker.type == MarkerType::kText) {

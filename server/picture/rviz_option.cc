@@ -163,7 +163,7 @@ class Frames {
                 {frame + turn, fmt::format("{}:{}: ", file_, picture_.target.line)},
                 Channel::kFile);
       if (frame != kUsual) {
-        spdlog::info("{}:{}: the camera goes with the frame {}", file_, picture_.target.line,
+        spdlog::info("{}:{}: the camera is to go with the frame {}", file_, picture_.target.line,
                      Quoted(frame));
       }
       return true;

@@ -128,7 +128,7 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
     marker.mesh_uri = message.mesh_resource;
     marker.mesh_has_own_colors = message.mesh_use_embedded_materials != 0;
   }
-  if (const auto defect = FindDefect(marker)) return NoMarker("cannot be drawn", message, *defect);
+  if (const auto defect = FindDefect(marker)) return NoMarker(defect->kind, message, defect->text);
   return marker;
 }
 
@@ -317,8 +317,9 @@ MarkerStore::Lost MarkerStore::LostOf(const Key& key, const Entry& entry) {
   if (!entry.is_of_frame) {
     return {std::get<0>(key), fmt::format("marker {}: {}", IdentityOf(*entry.shape), unknown)};
   }
+  const bool is_grid = entry.shape->ns == kNamespaceOfGrids;
   return {std::get<0>(key),
-          fmt::format("{}: {}{}", entry.shape->ns == kNamespaceOfGrids ? "a grid" : "axes", unknown,
+          fmt::format("{}: {}{}", is_grid ? "a grid" : "axes", unknown,
                       entry.stands_in_scene ? "; it stands at the origin of the scene" : "")};
 }
 

@@ -48,6 +48,23 @@ void AddLine(SceneMarker& lines, const Vector3d& from, const Vector3d& to, const
   lines.colors.insert(lines.colors.end(), 2, color);
 }
 
+bool IsNear(const urdf::Pose& pose) {
+  return pose.position.cwiseAbs().maxCoeff() < kFarthest;  // false of NaN, too
+}
+
+// "what: a, b and 3 more"; "" of no names.
+std::string ListOf(const char* what, const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+    text += (text.empty() ? std::string(what) + ": " : ", ") +
+            PrintableLine(names[i].substr(0, kMaxMarkerText));
+  }
+  if (names.size() > kMostNamed) {
+    text += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  }
+  return text;
+}
+
 // With its round base at `base`.
 void AddHead(SceneMarker& heads, const Vector3d& base, const Vector3d& tip, double radius,
              const Vector4d& color) {
@@ -129,13 +146,10 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame
   const auto find_near = [&](const std::string& name) {
     const auto [place, is_new] = places.try_emplace(name);
     if (is_new) place->second = find(name);
-    if (place->second && !(place->second->position.cwiseAbs().maxCoeff() < kFarthest)) {
-      place->second.reset();
-    }
-    return place->second;
+    return place->second && IsNear(*place->second) ? place->second : std::nullopt;
   };
   std::vector<Shown> all;
-  std::map<std::string, std::int64_t> lost;
+  std::map<std::string, Lost> lost;
   for (const Frame* const each : frames) {
     const auto& [name, frame] = *each;
     if (all.size() == kMostShownFrames) break;
@@ -146,7 +160,8 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame
     if (!pose) {
       const auto before = lost_.find(name);
       const bool is_heard_of = age_secs < kSilentSecs && lost.size() < kMostShownFrames;
-      if (is_heard_of) lost[name] = before == lost_.end() ? now_nanos : before->second;
+      const std::int64_t since = before == lost_.end() ? now_nanos : before->second.since_nanos;
+      if (is_heard_of) lost[name] = {since, places[name].has_value()};
       continue;
     }
     Shown shown{
@@ -203,22 +218,16 @@ void ShownFrames::Draw() {
 }
 
 std::string ShownFrames::TakeLost() {
-  std::vector<std::string> names;
-  for (const auto& [name, since_nanos] : lost_) {
-    const bool is_for_long = looked_nanos_ && *looked_nanos_ - since_nanos >= kNanosPerSecond;
+  std::vector<std::string> ways, far;
+  for (const auto& [name, lost] : lost_) {
+    const bool is_for_long = looked_nanos_ && *looked_nanos_ - lost.since_nanos >= kNanosPerSecond;
     if (is_for_long && told_.size() < kMostShownFrames && told_.insert(name).second) {
-      names.push_back(name);
+      (lost.is_far ? far : ways).push_back(name);
     }
   }
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
-    text += (text.empty() ? "frames without a way to that of the scene: " : ", ") +
-            PrintableLine(names[i].substr(0, kMaxMarkerText));
-  }
-  if (names.size() > kMostNamed) {
-    text += " and " + std::to_string(names.size() - kMostNamed) + " more";
-  }
-  return text;
+  const std::string without = ListOf("frames without a way to that of the scene", ways);
+  const std::string beyond = ListOf("frames beyond 50 km", far);
+  return without + (without.empty() || beyond.empty() ? "" : "; ") + beyond;
 }
 
 MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames) {

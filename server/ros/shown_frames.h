@@ -40,8 +40,8 @@ class ShownFrames {
   /// Axes, shafts and heads of all arrows, then the names, in the frame of the scene.
   const MarkerList& markers() const { return markers_; }
 
-  /// "frames without a way to that of the scene: a, b": those that are heard of and have had
-  /// none for a second, each once; "": no further ones.
+  /// "frames without a way to that of the scene: a, b" and "frames beyond 50 km: c": those that are
+  /// heard of and have been so for a second, each once; "": no further ones.
   [[nodiscard]] std::string TakeLost();
 
  private:
@@ -60,6 +60,11 @@ class ShownFrames {
     bool operator==(const Shown& other) const;
   };
 
+  struct Lost {
+    std::int64_t since_nanos = 0;
+    bool is_far = false;  // else it has no way
+  };
+
   /// Since it was last heard of, s.
   static double OwnAgeOf(const Seen& frame, std::int64_t now_nanos);
   /// Of it, or of any that it hangs on.
@@ -75,8 +80,8 @@ class ShownFrames {
   std::unordered_map<std::string, Seen> seen_;
   std::vector<Shown> shown_;
   MarkerList markers_;
-  std::map<std::string, std::int64_t> lost_;  // those without a way, since when
-  std::set<std::string> told_;                // those that were told
+  std::map<std::string, Lost> lost_;
+  std::set<std::string> told_;  // those of lost_ that were told
 };
 
 /// `markers`, then those of the frames, if they are shown.

@@ -206,7 +206,7 @@ Marker AxesMarker(const std::string& frame, const ShownStyle& style) {
   std_msgs::Header header;
   header.frame_id = frame;
   Marker lines = MarkerOf(header, 0, Marker::LINE_LIST, Color(255, 255, 255));
-  lines.ns = frame.empty() ? "axes" : frame;
+  lines.ns = kNamespaceOfAxes;
   lines.frame_locked = 1U;  // they go with their frame
   AddAxes({}, length, style.width_m.value_or(0.1 * length), style, lines);
   return lines;

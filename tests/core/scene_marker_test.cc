@@ -17,7 +17,10 @@ SceneMarker Strip(std::size_t points) {
   return marker;
 }
 
-std::string DefectOf(const SceneMarker& marker) { return FindDefect(marker).value_or(""); }
+std::string DefectOf(const SceneMarker& marker) {
+  const auto defect = FindDefect(marker);
+  return defect ? defect->text : "";
+}
 
 TEST(SceneMarker, HasNoDefectIfItIsValid) {
   EXPECT_EQ(DefectOf(SceneMarker()), "");

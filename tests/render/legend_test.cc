@@ -64,14 +64,15 @@ TEST(Legend, ListsOnlyWhatThePictureShowsWithItsColours) {
   state.robots = {Robot("arm")};
   state.objects.resize(2);
   auto marker = std::make_shared<SceneMarker>(), frames = std::make_shared<SceneMarker>(),
-       grid = std::make_shared<SceneMarker>();
+       grid = std::make_shared<SceneMarker>(), axes = std::make_shared<SceneMarker>();
+  axes->ns = kNamespaceOfAxes;
   frames->ns = kNamespaceOfFrames;
   grid->ns = kNamespaceOfGrids;
   marker->ns = "goal";
   marker->color = {0, 1, 0, 1};
   const auto red = std::make_shared<SceneMarker>(*marker);
   red->color = {1, 0, 0, 1};
-  state.markers = {marker, red, frames, grid};
+  state.markers = {marker, red, frames, grid, axes};
   const LegendContent content = LegendOf(state, look);
   EXPECT_THAT(NamesOf(content), IsSupersetOf({"path: right hand", "path: centre of mass", "N-pose",
                                               "robot arm", "tracked object", "marker goal"}));

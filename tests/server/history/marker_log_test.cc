@@ -88,7 +88,7 @@ TEST(MarkerLog, ForgetsLargeMarkersFirstAndSaysSo) {
   EXPECT_EQ(first[1], map) << "it is still there, and takes no more room";
   EXPECT_EQ(first[3], lists[0][3]);
   ASSERT_TRUE(FindDefect(*first[2]));
-  EXPECT_NE(FindDefect(*first[2])->find("no longer kept"), std::string::npos);
+  EXPECT_NE(FindDefect(*first[2])->text.find("no longer kept"), std::string::npos);
   EXPECT_EQ(first[2]->ns, lists[0][2]->ns);
   EXPECT_EQ(log.Of(2)[2], first[2]) << "one word for all lists that had it";
   Add(log, 51, {});

@@ -61,7 +61,7 @@ TEST_F(ShownFramesTest, AreAxesANameAndAnArrowToTheParent) {
   Set("cart", "world", {2, 0, 0});
   ASSERT_TRUE(UpdateAt(0));
   ASSERT_EQ(frames_->markers().size(), 5u);
-  for (const auto& marker : frames_->markers()) EXPECT_EQ(FindDefect(*marker), std::nullopt);
+  for (const auto& marker : frames_->markers()) EXPECT_FALSE(FindDefect(*marker));
   const SceneMarker& axes = *frames_->markers()[0];
   EXPECT_EQ(axes.type, MarkerType::kLineList);
   EXPECT_DOUBLE_EQ(axes.scale.x(), 0.02);
@@ -180,7 +180,9 @@ TEST_F(ShownFramesTest, AreBoundedAndFarOnesAreLeftOut) {
   Set("b", "", {std::nan(""), 0, 0});
   UpdateAt(0);
   EXPECT_EQ(Names().size(), kMostShownFrames);
-  for (const auto& marker : frames_->markers()) EXPECT_EQ(FindDefect(*marker), std::nullopt);
+  for (const auto& marker : frames_->markers()) EXPECT_FALSE(FindDefect(*marker));
+  UpdateAt(1.1);
+  EXPECT_EQ(frames_->TakeLost(), "frames beyond 50 km: a, b");
 }
 
 TEST_F(ShownFramesTest, OfALoopHaveAnEnd) {

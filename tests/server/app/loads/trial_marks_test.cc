@@ -15,7 +15,7 @@ namespace {
 using testing::CountedTrial;
 using testing::SceneWithRatio;
 
-TrialMark Moment(double secs) {
+TrialMark MarkAt(double secs) {
   TrialMark mark;
   mark.from_secs = mark.to_secs = secs;
   return mark;
@@ -23,7 +23,7 @@ TrialMark Moment(double secs) {
 
 TEST(TrialMarks, HaveTheHighestLoadsAroundThem) {
   const LoadTrial trial = CountedTrial();
-  const MarkLoads around = LoadsAround(Moment(5.5), trial);  // 3 s before and after
+  const MarkLoads around = LoadsAround(MarkAt(5.5), trial);  // 3 s before and after
   EXPECT_DOUBLE_EQ(around.from_secs, 2.5);
   EXPECT_DOUBLE_EQ(around.to_secs, 8.5);
   ASSERT_TRUE(around.highest);
@@ -34,7 +34,7 @@ TEST(TrialMarks, HaveTheHighestLoadsAroundThem) {
   EXPECT_DOUBLE_EQ(around.compression_N.value(), 2000);
   EXPECT_EQ(LoadsText(around), "0.90 Right knee, 2000 N");
 
-  TrialMark span = Moment(1);
+  TrialMark span = MarkAt(1);
   span.to_secs = 2;
   span.is_span = true;
   const MarkLoads within = LoadsAround(span, trial);
@@ -44,7 +44,7 @@ TEST(TrialMarks, HaveTheHighestLoadsAroundThem) {
 }
 
 TEST(TrialMarks, SayThatNoLoadIsKnown) {
-  EXPECT_EQ(LoadsText(LoadsAround(Moment(50), CountedTrial())), "no load known");
+  EXPECT_EQ(LoadsText(LoadsAround(MarkAt(50), CountedTrial())), "no load known");
 }
 
 TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
@@ -53,7 +53,7 @@ TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
   for (const char* text :
        {"camera of the server picture: front → left", "grasp",
         "hand load of Demo: unknown → right 7 kg", "recording: off → a.pcapng"}) {
-    context.marks.push_back(Moment(1.5 * static_cast<double>(context.marks.size())));
+    context.marks.push_back(MarkAt(1.5 * static_cast<double>(context.marks.size())));
     context.marks.back().text = text;
     context.marks.back().is_change = context.marks.back().text != "grasp";
   }
@@ -70,7 +70,7 @@ TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
 TEST(TrialMarks, AreShortInTextsHoweverManyThereAre) {
   const LoadTrial trial = CountedTrial();
   TrialContext context;
-  context.marks.assign(10'000, Moment(5));
+  context.marks.assign(10'000, MarkAt(5));
   for (TrialMark& mark : context.marks) mark.text = "slip";
   const render::Plot plot = JointPlot(trial, context, 0);
   EXPECT_LT(plot.height, 1000);

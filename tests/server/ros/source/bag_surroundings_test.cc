@@ -633,7 +633,7 @@ TEST_F(BagSurroundingsTest, AreAxesOfFramesThatAreNamed) {
   const Recorded recorded = Read(WriteCart, view);
   EXPECT_EQ(CountsOf(recorded).back(), 1u);
   const SceneMarker& axes = *recorded.markers.back().front();
-  EXPECT_EQ(axes.ns, "cart");
+  EXPECT_EQ(axes.ns, kNamespaceOfAxes);
   EXPECT_EQ(axes.type, MarkerType::kLineList);
   EXPECT_EQ(axes.pose.position.x(), 4);
   ASSERT_EQ(axes.colors.size(), 6u);
@@ -736,7 +736,7 @@ TEST_F(BagSurroundingsTest, ThatCannotBeDrawnAreCountedByReason) {
   });
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_THAT(recorded.counters.rejected,
-              ElementsAre(Pair("marker: cannot be drawn", 1), Pair("marker: unknown action", 1)));
+              ElementsAre(Pair("marker: its scale", 1), Pair("marker: unknown action", 1)));
 }
 
 TEST_F(BagSurroundingsTest, OfKinescopeAreDrawnByTheSceneItself) {
