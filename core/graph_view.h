@@ -158,13 +158,22 @@ struct ShownTopic {
   bool is_every_frame() const { return is_frame && name == kEveryFrame; }
 };
 
+/// The frames of TF that a camera goes with.
+struct CameraFrames {
+  std::string at = {};    // where it is; "": the camera stands
+  std::string axes = {};  // how it is turned; "": as `at`
+};
+
 struct GraphView {
   /// Of messages that are shown as markers: points, poses, paths, ...
   std::vector<ShownTopic> topics;
   std::vector<GraphRobot> robots;
   /// Of the transforms of a bag; "": /tf.
   std::string tf_topic = {};
-  std::string camera_frame = {};  // of TF: the camera goes with it; "": it stands
+  CameraFrames camera_frame = {};
+  /// Of a graph, where TF connects it with the people: they are placed in it. "": in the frame of
+  /// the first of them.
+  std::string reference_frame = {};
   /// Without it, a bag that has no person is shown if it has something else to show.
   bool needs_person = true;
 

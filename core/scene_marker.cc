@@ -70,7 +70,8 @@ int NeededSizes(const SceneMarker& marker) {
     case MarkerType::kLineStrip:
     case MarkerType::kLineList: return 1;
     case MarkerType::kPoints: return 2;
-    case MarkerType::kArrow: return marker.points.empty() ? 3 : 2;
+    case MarkerType::kSphereList: return 1;
+    case MarkerType::kArrow: return marker.points.empty() ? 3 : 1;
     case MarkerType::kText: return 0;
     default: return 3;
   }
@@ -96,7 +97,7 @@ std::optional<std::string> FindSizeDefect(const SceneMarker& marker) {
 std::optional<std::string> FindNameDefect(const SceneMarker& marker) {
   if (marker.type == MarkerType::kText) {
     if (marker.text.empty()) return "its text is empty";
-    if (marker.text.size() > kMaxMarkerText) return "its text is longer than 200 bytes";
+    if (marker.text.size() > kMaxMarkerText) return "its text is longer than 1000 bytes";
   }
   if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "its mesh name is empty";
   return std::nullopt;

@@ -19,16 +19,16 @@ namespace kinescope {
 /// Values as in the message.
 enum class MarkerType {
   kArrow = 0,   // two points: from, to; scale: shaft and head diameter, head length (0: 0.23 of the
-                // arrow). No points: along +x; scale: length, width, height
+                // arrow). No points: along +x; scale: length, shaft's width and height; head: twice
   kCube = 1,    // scale: edges
   kSphere = 2,  // scale: diameters
   kCylinder = 3,      // along z; scale: diameters, height
   kLineStrip = 4,     // points are joined; scale.x: width, round
   kLineList = 5,      // one line per two points; scale.x: width, round
   kCubeList = 6,      // one cube per point; scale: edges
-  kSphereList = 7,    // one sphere per point; scale: diameters
+  kSphereList = 7,    // one sphere per point; scale.x: diameter
   kPoints = 8,        // one square per point that faces the viewer, unlit; scale: width, height
-  kText = 9,          // faces the viewer; scale.z: height of a capital
+  kText = 9,          // faces the viewer, lines from top to bottom; scale.z: height of a line
   kMesh = 10,         // scale: factors
   kTriangleList = 11  // three points each, visible from both sides; scale: factors
 };
@@ -50,7 +50,8 @@ struct SceneMarker {
   std::string mesh_uri;                 // package://, file:// or an absolute path
   bool mesh_has_own_colors = false;     // use colours of the file, where it has any, instead of
                                         // `color`
-  bool is_in_pixels = false;            // of kPoints: scale is in pixels of the picture, not in m
+  bool is_in_pixels = false;  // of kPoints: scale is in pixels of the picture, not in m; of
+                              // kLineList: lines of one pixel
 };
 
 /// Of the axes, arrows and names of all frames of TF, which need no legend.
@@ -65,7 +66,7 @@ inline constexpr char kNamespaceOfAxes[] = "rviz/Axes";
 using MarkerList = std::vector<std::shared_ptr<const SceneMarker>>;
 
 constexpr std::size_t kMaxMarkerPoints = 100'000;  // per marker
-constexpr std::size_t kMaxMarkerText = 200;        // bytes
+constexpr std::size_t kMaxMarkerText = 1000;       // bytes
 constexpr double kFarthestMarker = 1e5;  // m; limit of the distance from the origin and of any size
 
 /// Why a marker cannot be rendered.

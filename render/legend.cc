@@ -156,8 +156,8 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
     // They say themselves what they are.
     const bool is_known = marker->ns == kNamespaceOfFrames || marker->ns == kNamespaceOfGrids ||
                           marker->ns == kNamespaceOfAxes;
-    if (marker->type == MarkerType::kText || is_known) continue;
     const Eigen::Vector4d& color = marker->colors.empty() ? marker->color : marker->colors.front();
+    if (marker->type == MarkerType::kText || is_known || color.w() == 0) continue;
     markers.Add({{{color[0], color[1], color[2]}, 1},
                  kBoxRadius,
                  marker->ns.empty() ? "marker" : "marker " + marker->ns,

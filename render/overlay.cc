@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "core/system/clocks.h"
 #include "render/frame_code.h"
@@ -376,20 +377,25 @@ void Overlay::PaintLeader(Page& page, double x, double y, const LabelBox& box,
   page.canvas.Polyline({{x, y}, {end_x, end_y}}, width, page.inks.faint_text);
 }
 
-// As high as it is in the world. In steps, so that a text that comes nearer does not fill the
-// font's memory with every size there is.
+// Line by line, as high as it is in the world. In steps, so that a text that comes nearer does not
+// fill the font's memory with every size there is.
 void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& at) {
   if (!(at.depth_m > 0) || !(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
   constexpr double kCapitalShare = 0.73;  // of a size, DejaVu Sans
-  constexpr double kSmallest = 5, kLargest = 96;
+  constexpr double kSmallest = 5, kLargest = 384, kLine = 1.2;
   const double wanted = label.height_m * at.px_per_m / kCapitalShare;
   if (!(wanted >= kSmallest)) return;
-  const double step = wanted < 24 ? 1 : 4;
+  const double step = wanted < 24 ? 1 : wanted < 96 ? 4 : 32;
   const int size = static_cast<int>(step * std::round(std::min(wanted, kLargest) / step));
   Font& font = page.fonts.regular;
-  const std::string text = Shorten(label.text, font, size, page.width);
-  page.canvas.Text(at.x_px - font.Width(text, size) / 2, at.y_px + 0.5 * kCapitalShare * size, text,
-                   font, size, {label.color, label.opacity});
+  const auto breaks = std::count(label.text.begin(), label.text.end(), '\n');
+  double y = at.y_px + 0.5 * (kCapitalShare - kLine * static_cast<double>(breaks)) * size;
+  std::istringstream lines(label.text);
+  for (std::string line; std::getline(lines, line); y += kLine * size) {
+    const std::string text = Shorten(line, font, size, page.width);
+    page.canvas.Text(at.x_px - font.Width(text, size) / 2, y, text, font, size,
+                     {label.color, label.opacity});
+  }
 }
 
 std::string TimeCode(std::int64_t millis) {

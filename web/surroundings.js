@@ -8,6 +8,7 @@ const BEING_MADE = 202;  // the status of an answer: those of a former state are
 const BEING_MADE_MILLIS = 100;
 const NOTE_HEIGHT = 0.05;   // m, of a capital in the name of a missing mesh
 const CAPITAL_SHARE = 0.73; // of a font's size
+const LINE = 1.2;           // from line to line, of a font's size
 const TEXT_PIXELS = 64;     // size of the font of a label's texture
 // From the axes of GLB to the world's: x forward, y left, z up.
 const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
@@ -151,6 +152,10 @@ const isMesh = (part) => part instanceof THREE.Mesh;
  *  @returns {part is THREE.Points<THREE.BufferGeometry, THREE.Material>} */
 const isPoints = (part) => part instanceof THREE.Points;
 
+/** @param {THREE.Object3D} part
+ *  @returns {part is THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>} */
+const isLines = (part) => part instanceof THREE.LineSegments;
+
 /** @param {THREE.Object3D} part */
 function prepare(part) {
   if (isMesh(part)) {
@@ -158,6 +163,8 @@ function prepare(part) {
     part.castShadow = !part.material.transparent;
   } else if (isPoints(part)) {
     part.material = squares(part);
+  } else if (isLines(part)) {
+    part.material.fog = false;
   } else if ('text' in part.userData) {
     part.add(makeText(readLabelText(part.userData, 'extras')));
   }
@@ -180,10 +187,10 @@ export function squares({ material: { transparent }, userData }) {
 
 /** @param {THREE.Object3D} part */
 function dispose(part) {
-  const hasShape = isMesh(part) || isPoints(part);
+  const hasShape = isMesh(part) || isPoints(part) || isLines(part);
   if (hasShape) part.geometry.dispose();
   if (!(hasShape || part instanceof THREE.Sprite)) return;
-  if (!isPoints(part)) part.material.map?.dispose();
+  if (isMesh(part) || part instanceof THREE.Sprite) part.material.map?.dispose();
   part.material.dispose();
 }
 
@@ -194,12 +201,14 @@ function makeText({ text, height, color, opacity }) {
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   const font = `${TEXT_PIXELS}px "DejaVu Sans", sans-serif`;
   pen.font = font;
-  canvas.width = Math.max(1, Math.ceil(pen.measureText(text).width));
-  canvas.height = Math.ceil(1.4 * TEXT_PIXELS);
+  const lines = text.split('\n');
+  canvas.width = Math.max(1, Math.ceil(Math.max(...lines.map((line) => pen.measureText(line).width))));
+  canvas.height = Math.ceil((1.4 + LINE * (lines.length - 1)) * TEXT_PIXELS);
   pen.font = font;  // resizing a canvas resets its font
   pen.fillStyle = `rgb(${color.map((channel) => Math.round(255 * channel)).join(' ')} / ${opacity})`;
   pen.textBaseline = 'middle';
-  pen.fillText(text, 0, canvas.height / 2);
+  pen.textAlign = 'center';
+  lines.forEach((line, i) => pen.fillText(line, canvas.width / 2, (0.7 + LINE * i) * TEXT_PIXELS));
   const map = new THREE.CanvasTexture(canvas);
   map.colorSpace = THREE.SRGBColorSpace;
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, fog: false }));

@@ -69,11 +69,11 @@ class Writer {
   void AddArrow() {
     const Vector3d& size = marker_.scale;
     Affine3d place = Affine3d::Identity();
-    if (marker_.points.empty()) {  // RViz' proportions: head 23 %, twice as thick as the shaft
+    if (marker_.points.empty()) {  // as RViz has it: the head is 23 %, and twice as thick
       place.rotate(AlongZ(Vector3d::UnitX()));
       // Turned so, its x is the height and its y the width.
       place.scale(Vector3d(size.z(), size.y(), 1));
-      Add(ArrowMesh(size.x(), 0.25, 0.5, 0.23 * size.x(), kRoundSides), place, Color());
+      Add(ArrowMesh(size.x(), 0.5, 1, 0.23 * size.x(), kRoundSides), place, Color());
       return;
     }
     const Vector3d along = marker_.points[1] - marker_.points[0];
@@ -155,7 +155,7 @@ void AppendMarker(const SceneMarker& marker, urdf::Mesh& to) {
       break;
     case MarkerType::kCubeList: writer.AddAtPoints(PlainCube(), marker.scale); break;
     case MarkerType::kSphereList:
-      writer.AddAtPoints(UnitSphere(kListSphereSides), marker.scale);
+      writer.AddAtPoints(UnitSphere(kListSphereSides), Vector3d::Constant(marker.scale.x()));
       break;
     case MarkerType::kTriangleList: writer.AddTriangles(); break;
     case MarkerType::kPoints:

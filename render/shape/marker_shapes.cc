@@ -19,9 +19,21 @@ bool IsTranslucent(const SceneMarker& marker) {
 }
 
 Label TextOf(const SceneMarker& marker) {
+  constexpr double kCapital = 0.62;  // of a line's height; measured in pictures of RViz 1.14
   const Eigen::Vector4d& c = marker.color;
-  return {marker.pose.position, marker.text,           Label::Kind::kMarker,
-          marker.scale.z(),     {c.x(), c.y(), c.z()}, c.w()};
+  const Rgb rgb = {c.x(), c.y(), c.z()};
+  return {marker.pose.position,        marker.text, Label::Kind::kMarker,
+          kCapital * marker.scale.z(), rgb,         c.w()};
+}
+
+// As RViz tints what a file has: with the opacity of the message, and its colour once more over it.
+Eigen::Vector4f Tinted(const Eigen::Vector4f& of_file, const Eigen::Vector4d& color) {
+  const auto opacity = static_cast<float>(color.w());
+  const float over = std::min(opacity, 0.5f), under = (1 - over) * opacity;
+  if (!(opacity > 0)) return Eigen::Vector4f::Zero();
+  Eigen::Vector4f tinted = (over * color.cast<float>() + under * of_file) / (over + under);
+  tinted.w() = over + under;
+  return tinted;
 }
 
 std::string NotDrawn(const SceneMarker& marker, const std::string& why) {
@@ -71,6 +83,11 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
     return;
   }
+  if (marker.type == MarkerType::kLineList && marker.is_in_pixels) {
+    if (HasRoomFor(marker.points.size())) return AddLines(marker, to);
+    to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
+    return;
+  }
   const bool is_blended = IsTranslucent(marker);
   urdf::Mesh& mesh = is_blended ? to.blended : to.solid;
   const std::size_t first = mesh.positions.size();
@@ -116,6 +133,24 @@ void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {
   box = {box.min() - reach, box.max() + reach};
 }
 
+void MarkerReader::AddLines(const SceneMarker& marker, MarkerShapes& to) {
+  const auto world_from_marker =
+      Eigen::Translation3d(marker.pose.position) * marker.pose.orientation;
+  MarkerLines& lines = to.lines.emplace_back();
+  lines.name = IdentityOf(marker);
+  lines.is_blended = IsTranslucent(marker);
+  lines.positions.reserve(marker.points.size());
+  lines.colors.reserve(marker.points.size());
+  auto& [box, around_px] = to.boxes.emplace_back();
+  around_px = 1;
+  for (std::size_t i = 0; i < marker.points.size(); ++i) {
+    lines.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
+    box.extend(lines.positions.back());
+    const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
+    lines.colors.emplace_back(color.cast<float>());
+  }
+}
+
 const VisualMesh& MarkerReader::MeshOf(const std::string& uri) {
   const auto known = meshes_.find(uri);
   if (known != meshes_.end()) return known->second;
@@ -151,8 +186,10 @@ void MarkerReader::AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerSh
   mesh.Append(file.mesh, place);
   if (is_file) mesh.Paint(first, marker.color.cast<float>(), 0);
   if (!marker.mesh_has_own_colors || !is_file) return;
+  const bool is_tinted = !marker.color.isZero();
   for (std::size_t i = 0; i < file.mesh.colors.size(); ++i) {
-    if (file.mesh.colors[i].w() > 0) mesh.colors[first + i] = file.mesh.colors[i];
+    const Eigen::Vector4f& color = file.mesh.colors[i];
+    if (color.w() > 0) mesh.colors[first + i] = is_tinted ? Tinted(color, marker.color) : color;
   }
 }
 

@@ -1,5 +1,5 @@
-/// Converts all external markers of a scene to triangles, points, texts and boxes: what pictures
-/// and the page show of them. World, metres. One thread.
+/// Converts all external markers of a scene to triangles, points, lines, texts and boxes: what
+/// pictures and the page show of them. World, metres. One thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -25,6 +25,14 @@ struct MarkerPoints {
   std::vector<Eigen::Vector4f> colors;  // one for each
 };
 
+/// Lines of one pixel of the picture, at any distance: those of one marker.
+struct MarkerLines {
+  std::string name;  // "rviz/Grid/0"
+  bool is_blended = false;
+  std::vector<Eigen::Vector3f> positions;  // two for each line
+  std::vector<Eigen::Vector4f> colors;     // one for each position
+};
+
 /// Around a marker with triangles or points.
 struct MarkerBox {
   Eigen::AlignedBox3f box;
@@ -37,6 +45,7 @@ struct MarkerShapes {
                 // the part of a vertex is the index of its marker's name
   std::vector<std::string> solid_names, blended_names;  // "walls/3"
   std::vector<MarkerPoints> points;
+  std::vector<MarkerLines> lines;
   bool is_closed = true;  // no surface of `solid` is visible from its back
   std::vector<MarkerBox> boxes;
   std::vector<Label> labels;  // texts, and the names of missing meshes
@@ -55,6 +64,7 @@ class MarkerReader {
  private:
   void Add(const SceneMarker& marker, MarkerShapes& to);
   static void AddPoints(const SceneMarker& marker, MarkerShapes& to);
+  static void AddLines(const SceneMarker& marker, MarkerShapes& to);
   void AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerShapes& to);
   [[nodiscard]] bool HasRoomFor(std::size_t triangles);
   const VisualMesh& MeshOf(const std::string& uri);

@@ -79,11 +79,23 @@ class Document {
             kRoot);
   }
 
+  void AddLines(const MarkerLines& lines) {
+    constexpr int kModeOfLines = 1;
+    json& meshes = glb_.document()["meshes"];
+    meshes.push_back({{"primitives",
+                       {{{"mode", kModeOfLines},
+                         {"attributes",
+                          {{"POSITION", glb_.AddPositions(Flat(lines.positions))},
+                           {"COLOR_0", AddColors(lines.colors)}}},
+                         {"material", lines.is_blended ? kBlended : kClosed}}}}});
+    AddNode({{"name", "lines"}, {"mesh", meshes.size() - 1}}, kRoot);
+  }
+
   void AddLabel(const Label& label) {
     AddNode({{"name", "label"},
              {"translation", {label.position.x(), label.position.y(), label.position.z()}},
              {"extras",
-              {{"text", PrintableLine(label.text)},
+              {{"text", PrintableLines(label.text)},
                {"height", label.height_m},
                {"color", label.color},
                {"opacity", label.opacity}}}},
@@ -214,6 +226,7 @@ std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const Scene
                      {{shapes.solid, shapes.is_closed ? Document::kClosed : Document::kOpen},
                       {shapes.blended, Document::kBlended}});
   for (const MarkerPoints& points : shapes.points) document.AddPoints(points);
+  for (const MarkerLines& lines : shapes.lines) document.AddLines(lines);
   for (const Label& label : shapes.labels) document.AddLabel(label);
   std::vector<std::string> problems = std::move(shapes.problems);
   std::size_t moving = 0;

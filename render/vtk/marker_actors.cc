@@ -30,6 +30,7 @@ void MarkerActors::Build() {
   if (!shapes.blended.triangles.empty()) blended_.SetMesh(shapes.blended);
   solid_.SetCulling(shapes.is_closed);
   for (PointActor* points : {&solid_points_, &blended_points_}) points->SetPoints(shapes.points);
+  for (LineActor* lines : {&solid_lines_, &blended_lines_}) lines->SetLines(shapes.lines);
   boxes_ = std::move(shapes.boxes);
   solid_names_ = std::move(shapes.solid_names);
   blended_names_ = std::move(shapes.blended_names);
@@ -51,6 +52,7 @@ void MarkerActors::SetViewSize(int width_px, int height_px) {
   for (PointActor* points : {&solid_points_, &blended_points_}) {
     points->SetViewSize(width_px, height_px);
   }
+  for (LineActor* lines : {&solid_lines_, &blended_lines_}) lines->SetViewSize(width_px, height_px);
 }
 
 std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
@@ -58,6 +60,8 @@ std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
                                    : actor == blended_.actor()        ? blended_names_
                                    : actor == solid_points_.actor()   ? solid_points_.names()
                                    : actor == blended_points_.actor() ? blended_points_.names()
+                                   : actor == solid_lines_.actor()    ? solid_lines_.names()
+                                   : actor == blended_lines_.actor()  ? blended_lines_.names()
                                                                       : std::vector<std::string>();
   for (std::string& name : names) name.insert(0, "marker ");
   return names;

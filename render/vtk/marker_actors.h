@@ -1,5 +1,5 @@
-/// Renders the external markers in four draw calls: triangles and points, the opaque ones and the
-/// others. They are rebuilt when one of them has changed since the picture before.
+/// Renders the external markers in six draw calls: triangles, points and lines, the opaque ones and
+/// the others. They are rebuilt when one of them has changed since the picture before.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "render/module.h"
 #include "render/once_log.h"
 #include "render/shape/marker_shapes.h"
+#include "render/vtk/line_actor.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/point_actor.h"
 
@@ -31,8 +32,12 @@ class MarkerActors {
   /// Markers that are not rendered, or whose mesh is replaced by a box: one line each, with the
   /// marker and the reason.
   const std::vector<std::string>& problems() const { return problems_; }
-  std::array<vtkActor*, 2> solid() { return {solid_.actor(), solid_points_.actor()}; }
-  std::array<vtkActor*, 2> blended() { return {blended_.actor(), blended_points_.actor()}; }
+  std::array<vtkActor*, 3> solid() {
+    return {solid_.actor(), solid_points_.actor(), solid_lines_.actor()};
+  }
+  std::array<vtkActor*, 3> blended() {
+    return {blended_.actor(), blended_points_.actor(), blended_lines_.actor()};
+  }
   /// By part of one of these actors: "marker walls/3".
   std::vector<std::string> NamesOf(const vtkActor* actor);
   void AddTo(PictureRegion& region) const;
@@ -42,6 +47,7 @@ class MarkerActors {
 
   PartActor solid_, blended_;
   PointActor solid_points_{false}, blended_points_{true};
+  LineActor solid_lines_{false}, blended_lines_{true};
   MarkerReader reader_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused

@@ -40,6 +40,10 @@ const FormerWord* FindFormer(const std::vector<FormerWord>& words, const std::st
   return found == words.end() ? nullptr : &*found;
 }
 
+void FilePath::SetFolder(const std::filesystem::path& folder) {
+  if (!value_.empty()) value_ = (folder / value_).string();
+}
+
 std::vector<std::filesystem::path> FilePath::Files() const {
   if (value_.empty()) return {};
   return {value_};

@@ -128,6 +128,7 @@ class FilePath : public ValueOf<std::string> {
   std::string Expected() const override { return ""; }
   bool IsGiven() const override { return !value_.empty(); }
   std::vector<std::filesystem::path> Files() const override;
+  void SetFolder(const std::filesystem::path& folder) override;
 };
 
 /// Texts, one each time the option is given; in one text (YAML, ROS) with semicolons between them.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/system/starts_with.h"
 #include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/picture/camera_keys.h"
@@ -16,6 +17,7 @@ namespace {
 using options::BadValue;
 using options::Number;
 
+constexpr char kAxes[] = "axes=";   // of a base of a camera
 constexpr double kMaxOrbit = 3600;  // degrees per second; more shows no motion any more
 
 bool IsKeyFile(const std::string& camera) {
@@ -44,6 +46,10 @@ render::Camera ParsePlace(const std::string& text) {
   }
   camera->up = points[2];
   return *camera;
+}
+
+std::string WithoutLeadingSlash(const std::string& name) {
+  return name.size() > 1 && name.front() == '/' ? name.substr(1) : name;
 }
 
 }  // namespace
@@ -132,21 +138,25 @@ void CameraBaseValue::Parse(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string turn = colon == std::string::npos ? "position" : text.substr(colon + 1);
   CameraBase base;
-  base.frame = text.substr(0, colon);
-  if (base.frame.size() > 1 && base.frame.front() == '/') base.frame.erase(0, 1);
-  const bool is_turn = turn == "position" || turn == "heading" || turn == "pose";
+  base.frame = WithoutLeadingSlash(text.substr(0, colon));
+  if (StartsWith(turn, kAxes)) base.axes = WithoutLeadingSlash(turn.substr(sizeof kAxes - 1));
+  const bool is_turn =
+      turn == "position" || turn == "heading" || turn == "pose" || IsFrameName(base.axes);
   if (!is_turn || !IsFrameName(base.frame)) RefuseText();
-  base.turn = turn == "heading" ? Turn::kHeading : turn == "pose" ? Turn::kFull : Turn::kNone;
+  base.turn = turn == "heading"                      ? Turn::kHeading
+              : turn == "pose" || !base.axes.empty() ? Turn::kFull
+                                                     : Turn::kNone;
   value_ = std::move(base);
 }
 
 std::string CameraBaseValue::ToText() const {
   constexpr const char* kTurns[] = {"", ":heading", ":pose"};
+  if (!value_.axes.empty()) return value_.frame + ":" + kAxes + value_.axes;
   return value_.frame + kTurns[static_cast<int>(value_.turn)];
 }
 
 std::string CameraBaseValue::Expected() const {
-  return "a frame of TF, as FRAME (its position), FRAME:heading or FRAME:pose";
+  return "a frame of TF, as FRAME (its position), FRAME:heading, FRAME:pose or FRAME:axes=OTHER";
 }
 
 CameraOptions::CameraOptions()

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "render/camera/camera.h"
 #include "server/options/option_list.h"
 #include "server/scene/held_heading.h"
@@ -63,13 +64,16 @@ struct CameraBase {
   enum class Turn {
     kNone,     // with the axes of the scene
     kHeading,  // turned with the frame about the vertical
-    kFull,     // as the frame
+    kFull,     // as the frame, or as that of `axes`
   };
   std::string frame;  // "": the camera stands
   Turn turn = Turn::kNone;
+  std::string axes = {};  // with kFull: of another frame, as RViz's Target and Fixed Frame
+
+  CameraFrames frames() const { return {frame, axes}; }
 };
 
-/// FRAME, FRAME:heading or FRAME:pose.
+/// FRAME, FRAME:heading, FRAME:pose or FRAME:axes=OTHER.
 class CameraBaseValue : public options::ValueOf<CameraBase> {
  public:
   CameraBaseValue() : ValueOf({}) {}

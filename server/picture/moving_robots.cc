@@ -36,7 +36,7 @@ void AddBagView(const ViewOptions& options, SceneOptions& scene) {
   scene.bag.needs_person = false;
   scene.bag.topics = *options.marker_topics;
   scene.bag.robots = ReadMovingRobots(*options.robot);
-  scene.bag.camera_frame = scene.camera_frame = options.moves.camera_tf->frame;
+  scene.bag.camera_frame = scene.camera_frame = options.moves.camera_tf->frames();
 }
 
 }  // namespace kinescope::app

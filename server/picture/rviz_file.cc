@@ -99,14 +99,10 @@ class RvizReader {
     const YAML::Node all = Member(manager, "Global Options");
     const YAML::Node background = Member(all, "Background Color");
     const int line = LineOf(background.IsDefined() ? background : manager);
-    auto rgb = rviz::ColorOf(all, "Background Color", {kDarkest, kDarkest, kDarkest});
-    if (!rgb) {
-      Remark(background, "Background Color " + Quoted(TextOf(all, "Background Color", "")) +
-                             " is no r; g; b or #rrggbb; RViz's own is taken");
-      rgb = Rgb{kDarkest, kDarkest, kDarkest};
-    }
-    Set("background", ToHex(*rgb), line);
-    const double luma = 0.2126 * (*rgb)[0] + 0.7152 * (*rgb)[1] + 0.0722 * (*rgb)[2];
+    const Rgb rgb = rviz::ColorOf(all, "Background Color", {kDarkest, kDarkest, kDarkest});
+    NameBadColors(all, "");
+    Set("background", ToHex(rgb), line);
+    const double luma = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
     picture_.fixed_frame = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
     picture_.fixed_frame_line = LineOf(all.IsDefined() ? all : manager);
@@ -129,10 +125,26 @@ class RvizReader {
     }
   }
 
+  // `called`: whose colours they are.
+  void NameBadColors(const YAML::Node& map, const std::string& called) {
+    if (!map.IsDefined() || !map.IsMap()) return;
+    for (const auto& each : map) {
+      if (!each.first.IsScalar()) continue;
+      const std::string name = each.first.Scalar();
+      if (each.second.IsMap()) NameBadColors(each.second, called);
+      const bool is_color = name == "Color" || EndsWith(name, " Color");
+      if (!is_color || !each.second.IsScalar() || rviz::IsColor(each.second.Scalar())) continue;
+      Remark(each.second, (called.empty() ? "" : called + ": ") + name + " " +
+                              Quoted(each.second.Scalar()) +
+                              " is no r; g; b or #rrggbb; RViz's own is taken");
+    }
+  }
+
   void ReadDisplay(const YAML::Node& display, const std::string& kind) {
     const std::string called =
         fmt::format("{} {}", kind.empty() ? "a display without a Class" : kind,
                     Quoted(TextOf(display, "Name", "")));
+    NameBadColors(display, called);
     if (kind == "rviz/Grid") {
       ReadGrid(display, called);
     } else if (kind == "rviz/RobotModel") {
@@ -176,7 +188,7 @@ class RvizReader {
                                                  const std::string& called) {
     const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
     const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
-    std::string name = is_fixed ? FixedFrame() : saved;
+    std::string name = is_fixed ? picture_.fixed_frame : saved;
     if (name.empty() || IsFrameName(name)) return ReferenceFrame{std::move(name), is_fixed};
     Remark(display, called + " is not drawn: " + Quoted(name) + " is no name of a frame");
     return std::nullopt;
@@ -243,12 +255,8 @@ class RvizReader {
 
   void AddLines(const YAML::Node& display, const std::string& called,
                 std::vector<std::string>& items) {
-    if (const auto color = rviz::ColorOf(display, "Color", kGridColor)) {
-      if (*color != kGridColor) items.push_back("color=" + ToHex(*color));
-    } else {
-      Remark(display, called + ": Color " + Quoted(TextOf(display, "Color", "")) +
-                          " is no r; g; b or #rrggbb; grey is taken");
-    }
+    const Rgb color = rviz::ColorOf(display, "Color", kGridColor);
+    if (color != kGridColor) items.push_back("color=" + ToHex(color));
     const double alpha = rviz::NumberOf(display, "Alpha", 0.5, 0, 1);
     if (alpha == 0) Remark(display, called + ": " + Invisible(display));
     AddItem("alpha", alpha, 0.5, items);
@@ -436,11 +444,6 @@ class RvizReader {
     if (frame->is_fixed && !frame->name.empty()) style += ",missing=scene";
     picture_.topics.push_back(
         {kAxesOfFrame + frame->name, style + ")", Shown(called), false, LineOf(display)});
-  }
-
-  // "": that of the scene; so is RViz's usual one, which need not be there.
-  std::string FixedFrame() const {
-    return picture_.fixed_frame == "map" ? "" : picture_.fixed_frame;
   }
 
   void ReadFrames(const YAML::Node& display, const std::string& called) {

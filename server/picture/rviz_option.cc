@@ -47,7 +47,16 @@ std::string ModelOf(const RvizPicture::Robot& robot) {
 void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>& robots,
                  options::OptionList& list) {
   options::Option* const option = list.Find("robot");
-  if (option == nullptr || option->channel != Channel::kDefault || robots.empty()) return;
+  if (option == nullptr || robots.empty()) return;
+  if (option->channel != Channel::kDefault) {
+    for (const RvizPicture::Robot& robot : robots) {
+      if (robot.option == ModelOf(robot) && robot.option.find("@tf:") == std::string::npos)
+        continue;
+      spdlog::info("{}:{}: {}: Alpha and TF Prefix are those of --robot (FILE.urdf@tf:PREFIX)",
+                   file, robot.line, robot.display);
+    }
+    return;
+  }
   std::vector<std::string> texts;
   if (HasGraph(list)) {
     std::set<std::string> models;
@@ -142,7 +151,12 @@ class Frames {
     const bool is_fixed_ours = picture_.fixed_frame == ours_;
     bool is_in_fixed = is_fixed_ours;  // as RViz has it
     if (!target.frame.empty() && target.frame != ours_) {
-      Follow(target.frame, target.turn, has_camera);
+      // As RViz has it: where its target is, with the axes of the fixed frame.
+      const bool has_axes = target.turn.empty() && !is_fixed_ours && HasTopics(list_) &&
+                            IsFrameName(picture_.fixed_frame);
+      const bool is_there = Follow(
+          target.frame, has_axes ? ":axes=" + picture_.fixed_frame : target.turn, has_camera);
+      is_in_fixed = is_in_fixed || (has_axes && is_there);
     } else if (target.frame.empty() && !is_fixed_ours) {
       is_in_fixed = Follow(picture_.fixed_frame, ":pose", has_camera);
     }

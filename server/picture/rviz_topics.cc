@@ -111,7 +111,8 @@ class StyleReader {
     AddColor();
     if (HasAlpha() && Member(properties_, "Alpha").IsDefined()) {
       const double alpha = NumberOf(properties_, "Alpha", 1, 0, 1);
-      if (alpha < 1) Add("alpha=" + options::NumberText(alpha));
+      const bool is_usually_clear = kind_ == "rviz/Map" || kind_ == "rviz/Range";
+      if (alpha < 1 || is_usually_clear) Add("alpha=" + options::NumberText(alpha));
     }
     AddShapeAndSize();
     if (kind_ == "rviz/Map") AddMap();
@@ -193,15 +194,14 @@ class StyleReader {
 
   void AddColor(const char* key, const char* property, const Rgb& usual) {
     if (!Member(properties_, property).IsDefined()) return;
-    const auto rgb = ColorOf(properties_, property, usual);
-    if (rgb) Add(key + ToHex(*rgb));
+    Add(key + ToHex(ColorOf(properties_, property, usual)));
   }
 
   // Of points.
   void AddTransformer() {
     const std::string transformer = TextOf(display_, "Color Transformer", "");
     if (transformer == "FlatColor") {
-      Add("color=" + ToHex(ColorOf(display_, "Color", {1, 1, 1}).value_or(Rgb{1, 1, 1})));
+      Add("color=" + ToHex(ColorOf(display_, "Color", {1, 1, 1})));
     } else if (transformer == "AxisColor") {
       AddAxisScale();
     } else if (transformer == "Intensity") {
@@ -237,8 +237,8 @@ class StyleReader {
       AddBounds(display_, "Min Intensity", 0, "Max Intensity", 4096);
     }
     if (!BoolOf(display_, "Use rainbow", true)) {
-      Add("low=" + ToHex(ColorOf(display_, "Min Color", {0, 0, 0}).value_or(Rgb{0, 0, 0})));
-      Add("high=" + ToHex(ColorOf(display_, "Max Color", {1, 1, 1}).value_or(Rgb{1, 1, 1})));
+      Add("low=" + ToHex(ColorOf(display_, "Min Color", {0, 0, 0})));
+      Add("high=" + ToHex(ColorOf(display_, "Max Color", {1, 1, 1})));
     } else if (BoolOf(display_, "Invert Rainbow", false)) {
       Add("rainbow=inverted");
     }
@@ -260,12 +260,12 @@ class StyleReader {
     if (shape == "Axes") {
       Add("shape=axes");
       size = Metres(properties_, "Axes Length", 0);
-      AddMetres("width=", properties_, "Axes Radius");
+      AddMetres("width=", properties_, "Axes Radius", are_many ? 0.01 : 0.1);
     } else if (shape == "Arrow (3D)") {
       Add("shape=arrows");
-      size = AddArrowParts(properties_, {0.23, 0.07}, "Shaft Radius", "Head Radius");
+      size = AddArrowParts(properties_, {0.23, 0.01, 0.07, 0.03}, "Shaft Radius", "Head Radius");
     } else if (!are_many && has_.shapes != nullptr) {
-      size = AddArrowParts(properties_, {1, 0.3}, "Shaft Radius", "Head Radius");
+      size = AddArrowParts(properties_, {1, 0.05, 0.3, 0.1}, "Shaft Radius", "Head Radius");
     } else if (has_.only_if == nullptr ||
                TextOf(display_, has_.only_if, has_.usually) != std::string(has_.not_if)) {
       for (const char* const part : has_.sizes) {
@@ -295,23 +295,26 @@ class StyleReader {
     return Limited(node, property, usual, 0, kLargestShown);
   }
 
-  // Where the file has it.
-  void AddMetres(const char* key, const YAML::Node& node, const char* property) {
-    if (!Member(node, property).IsDefined()) return;
-    Add(key + options::NumberText(Limited(node, property, 0, kSmallestShown, kLargestShown)));
+  void AddMetres(const char* key, const YAML::Node& node, const char* property, double usual) {
+    Add(key + options::NumberText(Limited(node, property, usual, kSmallestShown, kLargestShown)));
   }
 
-  // The length of the whole; 0: as usual.
-  double AddArrowParts(const YAML::Node& node, const std::array<double, 2>& usual,
-                       const char* shaft_width, const char* head_width) {
-    AddMetres("shaft_width=", node, shaft_width);
-    AddMetres("head_width=", node, head_width);
-    if (!Member(node, "Shaft Length").IsDefined() && !Member(node, "Head Length").IsDefined()) {
+  // RViz's, m.
+  struct Arrow {
+    double shaft, shaft_width, head, head_width;
+  };
+  // The length of the whole; 0: the file has nothing of it.
+  double AddArrowParts(const YAML::Node& node, const Arrow& usual, const char* shaft_width,
+                       const char* head_width) {
+    const auto has = [&](const char* property) { return Member(node, property).IsDefined(); };
+    if (!has("Shaft Length") && !has("Head Length") && !has(shaft_width) && !has(head_width)) {
       return 0;
     }
-    const double head = Metres(node, "Head Length", usual[1]);
+    AddMetres("shaft_width=", node, shaft_width, usual.shaft_width);
+    AddMetres("head_width=", node, head_width, usual.head_width);
+    const double head = Metres(node, "Head Length", usual.head);
     Add("head=" + options::NumberText(std::max(head, kSmallestShown)));
-    return Metres(node, "Shaft Length", usual[0]) + head;
+    return Metres(node, "Shaft Length", usual.shaft) + head;
   }
 
   // Of a path.
@@ -326,7 +329,7 @@ class StyleReader {
       }
     } else if (poses == "Arrows") {
       Add("shape=arrows");
-      length = AddArrowParts(display_, {0.1, 0.2}, "Shaft Diameter", "Head Diameter");
+      length = AddArrowParts(display_, {0.1, 0.1, 0.2, 0.3}, "Shaft Diameter", "Head Diameter");
       if (length == 0) length = 0.3;
       AddColor("pose_color=", "Pose Color", {1, 1.0 / 3, 1});
     } else if (poses != "None") {
@@ -348,7 +351,7 @@ class StyleReader {
     Add("force=" + options::NumberText(kWholeArrow * force));
     Add("torque=" + options::NumberText(kWholeArrow * torque));
     Add("width=" + options::NumberText(number("Arrow Width", 0.5, kSmallestShown, kLargestShown)));
-    AddColor("torque_color=", has.angular_color, {0.8, 0.8, 0.2});
+    Add("torque_color=" + ToHex(ColorOf(display_, has.angular_color, {0.8, 0.8, 0.2})));
     if (!BoolOf(display_, "Hide Small Values", true)) Add("small=shown");
   }
 
@@ -364,8 +367,7 @@ class StyleReader {
     if (BoolOf(position, "Value", true)) {
       add_number("covariance", position, "Scale", 1, kLargestCovarianceScale);
       add_number("covariance_alpha", position, "Alpha", 0.3, 1);
-      const auto rgb = ColorOf(position, "Color", {0.8, 0.2, 0.8});
-      if (rgb) Add("covariance_color=" + ToHex(*rgb));
+      Add("covariance_color=" + ToHex(ColorOf(position, "Color", {0.8, 0.2, 0.8})));
     }
     const YAML::Node turn = Member(covariance, "Orientation");
     if (!BoolOf(turn, "Value", true)) return;
@@ -375,8 +377,8 @@ class StyleReader {
     Add("turn_covariance_offset=" + options::NumberText(offset));
     if (TextOf(turn, "Color Style", "Unique") == "RGB") {
       Add("turn_covariance_color=axes");
-    } else if (const auto rgb = ColorOf(turn, "Color", {1, 1, 127.0 / 255})) {
-      Add("turn_covariance_color=" + ToHex(*rgb));
+    } else {
+      Add("turn_covariance_color=" + ToHex(ColorOf(turn, "Color", {1, 1, 127.0 / 255})));
     }
     if (TextOf(turn, "Frame", "Local") == "Fixed") {
       Remark(

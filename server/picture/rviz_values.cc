@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <limits>
-#include <vector>
 
 #include "server/options/text.h"
 
@@ -20,26 +19,30 @@ Rgb ToRgb(const std::array<double, 3>& levels) {
   return {share(levels[0]), share(levels[1]), share(levels[2])};
 }
 
+// "#ff8000", or "#f80".
 std::optional<Rgb> ParseHex(const std::string& text) {
+  if (text.size() != 4 && text.size() != 7) return std::nullopt;
+  const char* const format = text.size() == 7 ? "#%2x%2x%2x%n" : "#%1x%1x%1x%n";
+  const double step = text.size() == 7 ? 1 : 17;
   unsigned r = 0, g = 0, b = 0;
   int end = 0;
-  const bool is_read =
-      text.size() == 7 && std::sscanf(text.c_str(), "#%2x%2x%2x%n", &r, &g, &b, &end) == 3;
-  if (!is_read || end != 7) return std::nullopt;
-  return ToRgb({static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)});
+  if (std::sscanf(text.c_str(), format, &r, &g, &b, &end) != 3) return std::nullopt;
+  if (end != static_cast<int>(text.size())) return std::nullopt;
+  return ToRgb({step * r, step * g, step * b});
 }
 
-// "177; 255; 255".
+// "177; 255; 255"; what follows has no effect.
 std::optional<Rgb> ParseLevels(const std::string& text) {
-  const std::vector<std::string> items = options::SplitItems(text);
-  std::array<double, 3> levels{};
-  if (items.size() != levels.size()) return std::nullopt;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const auto number = options::ParseNumber(items[i]);
-    if (!number) return std::nullopt;
-    levels[i] = *number;
-  }
-  return ToRgb(levels);
+  int r = 0, g = 0, b = 0, end = 0;
+  const int read = std::sscanf(text.c_str(), "%5d ; %5d ; %5d %n", &r, &g, &b, &end);
+  const char next = text.c_str()[end];
+  if (read != 3 || (next != '\0' && next != ';')) return std::nullopt;
+  return ToRgb({1.0 * r, 1.0 * g, 1.0 * b});
+}
+
+std::optional<Rgb> ParseColor(const std::string& text) {
+  const auto levels = ParseLevels(text);
+  return levels ? levels : ParseHex(text);
 }
 
 // The text of a property; one that has children has its own beside them.
@@ -105,11 +108,11 @@ Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name) {
   return vector;
 }
 
-std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise) {
+bool IsColor(const std::string& text) { return ParseColor(text).has_value(); }
+
+Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise) {
   const auto text = ScalarOf(map, name);
-  if (!text) return otherwise;
-  const auto levels = ParseLevels(*text);
-  return levels ? levels : ParseHex(*text);
+  return text ? ParseColor(*text).value_or(otherwise) : otherwise;
 }
 
 bool AddHidden(const std::string& name, std::string& names) {

@@ -31,8 +31,10 @@ Limit LimitOf(const YAML::Node& map, const std::string& name, double otherwise, 
               double most);
 /// 0 unless X, Y and Z are numbers.
 Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name);
-/// "r; g; b", each from 0 to 255, or #rrggbb; nullopt: neither.
-std::optional<Rgb> ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise);
+/// Whether it is "r; g; b", each a whole number, or #rgb or #rrggbb. RViz takes names, too.
+bool IsColor(const std::string& text);
+/// `otherwise` also where there is another text. Numbers beyond 0 to 255 are the nearest of these.
+Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise);
 
 /// Adds a name to those of "(without=a|b)" of --marker_topics, "a|b"; false: it cannot stand there.
 [[nodiscard]] bool AddHidden(const std::string& name, std::string& names);

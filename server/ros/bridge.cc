@@ -253,7 +253,7 @@ class Bridge : public RosBridge {
 
   std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
     const GraphView& shown = config_.shown;
-    if (shown.topics.empty() && shown.camera_frame.empty()) return nullptr;
+    if (shown.topics.empty() && shown.camera_frame.at.empty()) return nullptr;
     return std::make_shared<MarkerInbox>(shown.topics, shown.camera_frame, scene_frame_,
                                          transforms_, robots_in_);
   }

@@ -10,8 +10,11 @@ bool FollowedFrame::Update(std::int64_t now_nanos, const FindFrame& find) {
     return false;
   }
   looked_nanos_ = now_nanos;
-  const std::optional<urdf::Pose> found = find(frame_);
+  std::optional<urdf::Pose> found = find(frames_.at);
   if (!found) return false;
+  if (!frames_.axes.empty()) {
+    found->orientation = find(frames_.axes).value_or(urdf::Pose{}).orientation;
+  }
   const bool is_same = pose_ && pose_->position == found->position &&
                        pose_->orientation.coeffs() == found->orientation.coeffs();
   pose_ = found;

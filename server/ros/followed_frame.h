@@ -1,4 +1,4 @@
-/// The frame of TF that a camera goes with. One thread.
+/// The frames of TF that a camera goes with. One thread.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/graph_view.h"
 #include "urdf/kinematics.h"
 
 namespace kinescope::ros_bridge {
@@ -16,17 +17,17 @@ class FollowedFrame {
   /// Where the frame is now, in the frame of the scene.
   using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
 
-  /// "": there is none.
-  explicit FollowedFrame(std::string frame) : frame_(std::move(frame)) {}
+  explicit FollowedFrame(CameraFrames frames) : frames_(std::move(frames)) {}
 
-  bool is_wanted() const { return !frame_.empty(); }
+  bool is_wanted() const { return !frames_.at.empty(); }
   /// True if it has moved. Looks at most sixty times a second.
   bool Update(std::int64_t now_nanos, const FindFrame& find);
-  /// Where it was last, as RViz has it; none before the first time.
+  /// Where it was last, as RViz has it; none before the first time. With the axes of the scene as
+  /// long as those of `axes` are not known.
   const std::optional<urdf::Pose>& pose() const { return pose_; }
 
  private:
-  const std::string frame_;
+  const CameraFrames frames_;
   std::optional<urdf::Pose> pose_;
   std::optional<std::int64_t> looked_nanos_;
 };

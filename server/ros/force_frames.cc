@@ -119,7 +119,7 @@ std::optional<Refusal> TfTree::Add(const tf2_msgs::TFMessage& message, bool is_s
   return first;
 }
 
-std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::string& frame,
+std::optional<FramePlace> TfTree::Find(const std::string& target, const std::string& frame,
                                        std::int64_t stamp_nanos) const {
   for (const ros::Time& time : {ToRosTime(stamp_nanos), ros::Time(0)}) {
     if (!buffer_.canTransform(target, frame, time)) continue;
@@ -127,7 +127,9 @@ std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::str
       const auto found = buffer_.lookupTransform(target, frame, time);
       const auto& p = found.transform.translation;
       const auto& q = found.transform.rotation;
-      return urdf::Pose{{p.x, p.y, p.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+      const urdf::Pose pose{{p.x, p.y, p.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+      const std::int64_t newest = ToNanos(found.header.stamp);  // 0: it always holds
+      return FramePlace{pose, newest != 0 && newest < stamp_nanos};
     } catch (const tf2::TransformException&) {  // although it reported the transform as available
     }
   }
@@ -149,16 +151,18 @@ std::optional<FoundFrame> FindFrame(const std::string& frame, std::int64_t stamp
     }
   }
   if (name.empty()) return std::nullopt;
-  if (const auto pose = tf.Find(reference_frame, name, stamp_nanos)) {
-    return FoundFrame{*pose, false};
+  if (const auto place = tf.Find(reference_frame, name, stamp_nanos)) {
+    return FoundFrame{place->pose, false, place->is_early};
   }
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {  // a handle fixed to a hand
     const auto in_link = tf.Find(urdf::LinkName(model, segment), name, stamp_nanos);
     if (!in_link) continue;
     const urdf::Pose& link_pose = body.links[At(segment)];
-    return FoundFrame{{link_pose.position + link_pose.orientation * in_link->position,
-                       link_pose.orientation * in_link->orientation},
-                      false};
+    const urdf::Pose& in_hand = in_link->pose;
+    return FoundFrame{{link_pose.position + link_pose.orientation * in_hand.position,
+                       link_pose.orientation * in_hand.orientation},
+                      false,
+                      in_link->is_early};
   }
   return std::nullopt;
 }

@@ -24,6 +24,16 @@ struct TreeFrame {
   std::int64_t newest_nanos = 0;  // stamp of its newest transform; 0: it always holds
 };
 
+/// Where a frame is at a time.
+struct FramePlace {
+  urdf::Pose pose;        // target_from_frame
+  bool is_early = false;  // by its newest transform, which is older than that time
+};
+
+inline std::optional<urdf::Pose> PoseOf(const std::optional<FramePlace>& place) {
+  return place ? std::make_optional(place->pose) : std::nullopt;
+}
+
 /// Frames published by other nodes, kept for ten seconds. Kinescope's own frames are not included:
 /// they are known from the newest sample, and tf2 would ignore them after a recording starts over.
 class TfTree {
@@ -45,7 +55,7 @@ class TfTree {
   const std::unordered_map<std::string, TreeFrame>& frames() const { return frames_; }
 
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
-  std::optional<urdf::Pose> Find(const std::string& target, const std::string& frame,
+  std::optional<FramePlace> Find(const std::string& target, const std::string& frame,
                                  std::int64_t stamp_nanos) const;
 
  private:
@@ -75,6 +85,7 @@ struct FoundFrame {
   urdf::Pose pose;  // world_from_frame
   /// The reference frame or a link of the person: its origin is not the position of a sensor.
   bool is_own = false;
+  bool is_early = false;  // as FramePlace has it
 };
 
 /// `frame` as a link of `model` ("skeleton_right_hand", "right_hand", "RightHand"), as the

@@ -67,11 +67,11 @@ void ImageBox::Update(std::int64_t now_nanos, const FindFrame& find) {
 void ImageBox::Place(std::size_t topic, Shown& shown, const FindFrame& find) {
   const CameraImage& image = *shown.newest;
   const auto calibration = calibrations_.find(topic);
-  std::optional<urdf::Pose> place;
+  std::optional<FramePlace> place;
   if (calibration != calibrations_.end()) {
     const std::string& frame = calibration->second.frame;
     if (image.stamp_nanos != 0) place = find(frame, image.stamp_nanos);
-    shown.is_placed_for_good = place.has_value();
+    shown.is_placed_for_good = place && !place->is_early;
     if (!place) place = find(frame, 0);
   }
   if (!place) {
@@ -89,8 +89,9 @@ void ImageBox::Place(std::size_t topic, Shown& shown, const FindFrame& find) {
   shown.lost_nanos.reset();
   ImageCamera camera = calibration->second.camera;
   const urdf::Pose in_frame = camera.world_from_optical;
-  camera.world_from_optical.position = place->position + place->orientation * in_frame.position;
-  camera.world_from_optical.orientation = place->orientation * in_frame.orientation;
+  const urdf::Pose& frame = place->pose;
+  camera.world_from_optical.position = frame.position + frame.orientation * in_frame.position;
+  camera.world_from_optical.orientation = frame.orientation * in_frame.orientation;
   camera.scene_opacity = shown.scene_opacity;
   if (!FindDefect(camera).empty() || (image.camera && AreSame(*image.camera, camera))) return;
   auto placed = std::make_shared<CameraImage>(image);

@@ -23,7 +23,7 @@ class ImageBox {
  public:
   /// Where a frame is at a time, in the frame of the scene; stamp 0: the newest place.
   using FindFrame =
-      std::function<std::optional<urdf::Pose>(const std::string& frame, std::int64_t stamp_nanos)>;
+      std::function<std::optional<FramePlace>(const std::string& frame, std::int64_t stamp_nanos)>;
 
   /// @param topic  numbers of topics give the order
   /// Why it is not taken: there are kMostImages of other topics.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/ros/point_colors.h"
 #include "server/ros/raw_message.h"
@@ -71,6 +72,69 @@ std::optional<std::string> FindExcess(const Marker& message) {
   return std::nullopt;
 }
 
+Eigen::Vector4d Clamped(const Eigen::Vector4d& color) {
+  return color.allFinite() ? Eigen::Vector4d(color.cwiseMax(0).cwiseMin(1)) : color;
+}
+
+bool IsNear(const Eigen::Vector3d& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
+}
+
+// As many points belong together.
+std::size_t PointsOfOne(MarkerType type) {
+  return type == MarkerType::kLineList ? 2 : type == MarkerType::kTriangleList ? 3 : 1;
+}
+
+// What has one goes, with its colours: a line, a triangle, one of many cubes.
+void DropFarPoints(SceneMarker& marker) {
+  const std::size_t together = PointsOfOne(marker.type), count = marker.points.size();
+  const bool has_colors = marker.colors.size() == count;
+  if (marker.type == MarkerType::kArrow || count % together != 0) return;
+  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; i += together) {
+    const auto first = marker.points.begin() + at(i);
+    if (!std::all_of(first, first + at(together), IsNear)) continue;
+    for (std::size_t k = i; k < i + together; ++k, ++kept) {
+      marker.points[kept] = marker.points[k];
+      if (has_colors) marker.colors[kept] = marker.colors[k];
+    }
+  }
+  marker.points.resize(kept);
+  if (has_colors) marker.colors.resize(kept);
+}
+
+// RViz takes a size below 0 for one above, except of an arrow, which points the other way, and
+// draws what is flat.
+void MakeSolid(SceneMarker& marker) {
+  constexpr double kFlat = 1e-5;  // m
+  switch (marker.type) {
+    case MarkerType::kMesh:
+    case MarkerType::kTriangleList:
+    case MarkerType::kText: return;
+    case MarkerType::kArrow:
+      if (!marker.points.empty() || !(marker.scale.x() < 0)) break;
+      marker.pose.orientation =
+          marker.pose.orientation * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
+      break;
+    default: break;
+  }
+  marker.scale = marker.scale.cwiseAbs();
+  const bool has_volume = marker.type == MarkerType::kCube || marker.type == MarkerType::kSphere ||
+                          marker.type == MarkerType::kCylinder ||
+                          marker.type == MarkerType::kCubeList;
+  if (has_volume && marker.scale.maxCoeff() > 0) marker.scale = marker.scale.cwiseMax(kFlat);
+}
+
+// @return at most `most` bytes, with an ellipsis if something is left out
+std::string Shortened(const std::string& text, std::size_t most) {
+  constexpr char kEllipsis[] = "\u2026";
+  if (text.size() <= most) return text;
+  std::size_t end = most - (sizeof kEllipsis - 1);
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + kEllipsis;
+}
+
 bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
   return a.type == b.type && a.pose.position == b.pose.position &&
          a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
@@ -79,9 +143,9 @@ bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
          a.is_in_pixels == b.is_in_pixels;
 }
 
-void SizeInPixels(SceneMarker& points, double size_px) {
-  points.scale.x() = points.scale.y() = size_px;
-  points.is_in_pixels = true;
+void SizeInPixels(SceneMarker& marker, double size_px) {
+  marker.scale.x() = marker.scale.y() = size_px;
+  marker.is_in_pixels = true;
 }
 
 // @pre AxisOf(style)
@@ -111,7 +175,7 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
   marker.type = static_cast<MarkerType>(message.type);
   marker.pose = {FromMarker(message.pose.position), FromMarker(message.pose.orientation)};
   marker.scale = FromMarker(message.scale);
-  marker.color = FromMarker(message.color);
+  marker.color = Clamped(FromMarker(message.color));
   if (HasPoints(marker.type)) {
     for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
     if (marker.type != MarkerType::kArrow) {
@@ -119,15 +183,18 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
       const bool has_face_colors = marker.type == MarkerType::kTriangleList &&
                                    3 * message.colors.size() == message.points.size();
       for (const auto& color : message.colors) {
-        marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1, FromMarker(color));
+        marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1,
+                             Clamped(FromMarker(color)));
       }
     }
+    DropFarPoints(marker);
   }
-  if (marker.type == MarkerType::kText) marker.text = message.text;
+  if (marker.type == MarkerType::kText) marker.text = Shortened(message.text, kMaxMarkerText);
   if (marker.type == MarkerType::kMesh) {
     marker.mesh_uri = message.mesh_resource;
     marker.mesh_has_own_colors = message.mesh_use_embedded_materials != 0;
   }
+  MakeSolid(marker);
   if (const auto defect = FindDefect(marker)) return NoMarker(defect->kind, message, defect->text);
   return marker;
 }
@@ -162,7 +229,9 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   }
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
-  if (style.size_px && shape->type == MarkerType::kPoints) SizeInPixels(*shape, *style.size_px);
+  const bool has_pixels =
+      shape->type == MarkerType::kPoints || shape->type == MarkerType::kLineList;
+  if (style.size_px && has_pixels) SizeInPixels(*shape, *style.size_px);
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMaxMarkers) {
     return NoMarker("too many", message,
@@ -194,7 +263,17 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   entry.is_new = true;
   const std::int64_t lives = message.lifetime.toNSec();
   entry.dies_nanos = lives > 0 ? monotonic_nanos + lives : 0;
-  return std::nullopt;
+  entry.came_nanos = monotonic_nanos;
+  const std::size_t sent = HasPoints(type) ? message.points.size() : 0;
+  const std::size_t left = entry.shape->points.size();
+  if (left == sent || !HasPoints(type)) return std::nullopt;
+  Refusal some = NoMarker("some of its points", message,
+                          fmt::format("points that are not finite, or are beyond 100 km, are left "
+                                      "out: {} of {}",
+                                      sent - left, sent))
+                     .value();
+  some.is_partial = true;
+  return some;
 }
 
 std::optional<Refusal> MarkerStore::ApplyAll(std::size_t topic, const std::vector<Marker>& messages,
@@ -214,7 +293,7 @@ class MarkerStore::FrameCache {
  public:
   explicit FrameCache(const FindFrame& find) : find_(find) {}
 
-  std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) {
+  std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) {
     if (unknown_.count(frame) != 0) return std::nullopt;
     const std::pair<std::string, std::int64_t> key(frame, stamp_nanos);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
@@ -229,23 +308,38 @@ class MarkerStore::FrameCache {
 
  private:
   const FindFrame& find_;
-  std::map<std::pair<std::string, std::int64_t>, urdf::Pose> known_;
+  std::map<std::pair<std::string, std::int64_t>, FramePlace> known_;
   std::set<std::string> unknown_;
 };
 
-bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
-  auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
-  const bool is_told = !frame && (!entry.stands_in_scene || entry.is_told_missing);
+// Until then what was before it stays, as in RViz.
+bool MarkerStore::IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos) {
+  constexpr std::int64_t kLongestHold = 500 * kNanosPerMilli;
+  if (!place.is_early) entry.waits_in_vain = false;
+  if (!place.is_early || !entry.is_new || entry.waits_in_vain) {
+    entry.held_nanos.reset();
+    return false;
+  }
+  if (!entry.held_nanos || now_nanos < *entry.held_nanos) entry.held_nanos = now_nanos;
+  entry.waits_in_vain = now_nanos - *entry.held_nanos >= kLongestHold;
+  return !entry.waits_in_vain;
+}
+
+bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
+  auto place = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+  const bool is_told = !place && (!entry.stands_in_scene || entry.is_told_missing);
   if (is_told && !entry.is_lost) lost_.push_back(LostOf(key, entry));
   entry.is_lost = is_told;
-  if (!frame && !entry.stands_in_scene) {
+  if (!place && !entry.stands_in_scene) {
     return false;  // it stays where it was, or has no place yet
   }
-  if (!frame) frame.emplace();
+  if (!place) place.emplace();
+  if (IsHeld(entry, *place, now_nanos)) return false;
   entry.is_new = false;
-  const urdf::Pose& local = entry.shape->pose;
-  const urdf::Pose pose{frame->position + frame->orientation * local.position,
-                        (frame->orientation * local.orientation).normalized()};
+  entry.is_early = place->is_early;
+  const urdf::Pose &frame = place->pose, &local = entry.shape->pose;
+  const urdf::Pose pose{frame.position + frame.orientation * local.position,
+                        (frame.orientation * local.orientation).normalized()};
   if (entry.placed && entry.placed->pose.position == pose.position &&
       entry.placed->pose.orientation.coeffs() == pose.orientation.coeffs()) {
     return false;
@@ -262,6 +356,8 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   // A marker that moves is copied with its points, at about 10 ns each.
   constexpr std::int64_t kNanosPerPoint = 100;
   constexpr std::int64_t kRetryNanos = 100'000'000;
+  // For transforms of the time of a message. TF keeps its own as long.
+  constexpr std::int64_t kLongestWait = 10 * kNanosPerSecond;
   const bool move = monotonic_nanos >= next_move_nanos_;
   if (move)
     next_move_nanos_ = monotonic_nanos + static_cast<std::int64_t>(points_) * kNanosPerPoint;
@@ -276,8 +372,10 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
       it = entries_.erase(it);
       continue;
     }
-    const bool is_due = entry.is_lost ? retry : entry.is_new || (entry.is_locked && move);
-    if (is_due && Place(it->first, entry, frames)) changed = true;
+    if (entry.is_early && monotonic_nanos - entry.came_nanos > kLongestWait) entry.is_early = false;
+    const bool is_due =
+        entry.is_lost ? retry : entry.is_new || ((entry.is_locked || entry.is_early) && move);
+    if (is_due && Place(it->first, entry, frames, monotonic_nanos)) changed = true;
     ++it;
   }
   if (!changed) return false;
@@ -291,7 +389,9 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
 void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
   const Marker lines =
       frame.is_grid ? GridMarker(frame.name, frame.style) : AxesMarker(frame.name, frame.style);
-  if (const auto refusal = Apply(topic, lines, 0)) {
+  ShownStyle style;
+  if (frame.is_grid && !frame.style.width_m) style.size_px = 1;  // as RViz's style Lines
+  if (const auto refusal = Apply(topic, lines, 0, style)) {
     throw UsageError("--marker_topics: " + refusal->text);
   }
   Entry& entry = entries_.at(Key{topic, lines.ns, lines.id});

@@ -33,14 +33,14 @@ class MarkerStore {
  public:
   /// reference_frame <- frame at a time; stamp 0: the newest. nullopt: not known (yet).
   using FindFrame =
-      std::function<std::optional<urdf::Pose>(const std::string& frame, std::int64_t stamp_nanos)>;
+      std::function<std::optional<FramePlace>(const std::string& frame, std::int64_t stamp_nanos)>;
   using Markers = std::vector<std::shared_ptr<const SceneMarker>>;
 
   /// `topic` identifies the sender: namespaces and ids of markers are separate per topic. Points
   /// that `style` colours by an axis have their colours as soon as they have a place; those of the
   /// type POINTS have its size in pixels (`size_px`), if it has one; markers of a namespace that it
   /// leaves out (`frames.hidden`) have no effect.
-  /// @return why the message was rejected; nullopt if it was applied.
+  /// @return why the message, or a part of it, was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
                                              std::int64_t monotonic_nanos,
@@ -56,8 +56,9 @@ class MarkerStore {
   void AddOfFrame(std::size_t topic, const ShownTopic& frame);
 
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
-  /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.
-  /// True if the list of `markers()` has changed.
+  /// frame, but in at most a tenth of the time. A marker that is newer than the transforms of its
+  /// frame waits for half a second, then stands by the newest one until they have come. Unknown
+  /// frames are looked up ten times per second. True if the list of `markers()` has changed.
   [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
   /// Looks all frames up again: the reference frame is another one.
@@ -91,11 +92,17 @@ class MarkerStore {
     bool is_of_frame = false;                               // of no message
     bool stands_in_scene = false, is_told_missing = false;  // as ShownStyle has it
     bool is_lost = false;
+    bool is_early = false;  // it stands by a transform that is older than its message
+    std::int64_t came_nanos = 0;
+    // Since then it waits for transforms of its time; in vain: the next messages do not.
+    std::optional<std::int64_t> held_nanos;
+    bool waits_in_vain = false;
     std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
   };
 
   class FrameCache;
-  bool Place(const Key& key, Entry& entry, FrameCache& frames);
+  bool Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos);
+  static bool IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos);
   static Lost LostOf(const Key& key, const Entry& entry);
 
   std::map<Key, Entry> entries_;

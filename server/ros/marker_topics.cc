@@ -60,7 +60,7 @@ std::size_t WeightOf(const DecodedMessage& message) {
 
 }  // namespace
 
-MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
+MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, CameraFrames camera_frame,
                          std::shared_ptr<const SceneFrame> frame, std::shared_ptr<const TfTree> tf,
                          std::shared_ptr<const RobotInbox> robots)
     : topics_(Resolved(std::move(topics))),
@@ -214,19 +214,20 @@ void MarkerInbox::SetPerson(const PersonState& person, double floor_z) {
   body.now = {person.links, person.model->human.skeleton, floor_z, person.sample.stamp_nanos};
 }
 
-std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
+std::optional<FramePlace> MarkerInbox::Find(const std::string& frame,
                                             std::int64_t stamp_nanos) const {
   // An empty frame means that of the scene.
   const std::string& reference_frame = frame_->name();
-  if (frame.empty() || frame == reference_frame) return urdf::Pose{};
+  if (frame.empty() || frame == reference_frame) return FramePlace{};
   for (const auto& [character, body] : bodies_) {
     const auto found = FindFrame(frame, stamp_nanos, reference_frame, body.model, body.now, *tf_);
-    if (found) return found->pose;
+    if (found) return FramePlace{found->pose, found->is_early};
   }
   if (bodies_.empty()) {
     if (auto found = tf_->Find(reference_frame, frame, stamp_nanos)) return found;
   }
-  return FindChainedOf(Robots(), frame);
+  const auto chained = FindChainedOf(Robots(), frame);
+  return chained ? std::make_optional(FramePlace{*chained}) : std::nullopt;
 }
 
 std::vector<const RobotFrames*> MarkerInbox::Robots() const {
@@ -246,7 +247,7 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
       }
     }
   };
-  const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
+  const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
   const bool has_changed = frames_->Update(monotonic_nanos, list, find_now);
   if (std::string lost = frames_->TakeLost(); !lost.empty()) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -271,7 +272,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   if (changed) sink.OnMarkers(Together(store_.markers(), frames_));
   images_.Update(monotonic_nanos, find);
   if (images_.TakeChanged()) sink.OnImages(images_.images());
-  const auto find_now = [this](const std::string& frame) { return Find(frame, 0); };
+  const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
   if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
   const auto note = [this](std::size_t topic, const std::string& text) {
     const std::lock_guard<std::mutex> lock(mutex_);

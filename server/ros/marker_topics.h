@@ -39,7 +39,7 @@ class MarkerInbox {
   /// At most kMostShownTopics. @throws UsageError with an invalid name. @pre InitRos was called.
   /// @param frame  in which the scene stands
   /// @param robots  whose links may be frames of markers, and whose efforts are shown; or null
-  MarkerInbox(std::vector<ShownTopic> topics, std::string camera_frame,
+  MarkerInbox(std::vector<ShownTopic> topics, CameraFrames camera_frame,
               std::shared_ptr<const SceneFrame> frame, std::shared_ptr<const TfTree> tf,
               std::shared_ptr<const RobotInbox> robots);
 
@@ -83,7 +83,7 @@ class MarkerInbox {
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   void WarnOfUnplaced(std::int64_t monotonic_nanos);
-  std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
+  std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) const;
   std::vector<const RobotFrames*> Robots() const;
   bool UpdateFrames(std::int64_t monotonic_nanos);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/system/starts_with.h"
+#include "core/system/stop_signal.h"
 #include "server/ros/xmlrpc_limits.h"
 
 namespace kinescope::ros_bridge {
@@ -76,12 +77,14 @@ MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
     const auto end = std::chrono::steady_clock::now() + timeout;
     // In short steps: the end of the program may leave less time meanwhile.
     constexpr std::chrono::milliseconds kStep(100), kNone(0);
+    constexpr int kMostStepsOfEnd = 4;
+    int steps_of_end = 0;
     bool is_late = false;
     while (true) {
       const auto now = std::chrono::steady_clock::now();
       const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - now);
       const auto step = std::min(kStep, XmlRpcTimeLeft(std::max(kNone, rest)));
-      is_late = step == kNone;
+      is_late = step == kNone || (StopRequested() && ++steps_of_end > kMostStepsOfEnd);
       if (is_late) break;
       client._disp.work(std::chrono::duration<double>(step).count());
       // With nothing left to wait for it returns at once.

@@ -10,9 +10,10 @@
 namespace kinescope::ros_bridge {
 
 struct Refusal {
-  const char* kind;       // from a fixed set; key of the counter
-  std::string text;       // one line with the values
-  bool is_in_log = true;  // false: it is no error, or the log has it already
+  const char* kind;         // from a fixed set; key of the counter
+  std::string text;         // one line with the values
+  bool is_in_log = true;    // false: it is no error, or the log has it already
+  bool is_partial = false;  // the rest of the message is used
 };
 inline Refusal Unreadable() {
   return {"unreadable", "a message that is truncated or has a wrong length field"};

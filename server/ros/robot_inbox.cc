@@ -147,7 +147,7 @@ void RobotInbox::Deliver(std::int64_t monotonic_nanos, std::int64_t stamp_nanos,
     RobotFrames& frames = *slots_[i].frames;
     const auto find = [&](const std::string& frame) -> std::optional<urdf::Pose> {
       if (frame == frame_->name()) return urdf::Pose{};
-      return tf_->Find(frame_->name(), frame, stamp_nanos);
+      return PoseOf(tf_->Find(frame_->name(), frame, stamp_nanos));
     };
     if (frames.Place(find)) has_news_ = true;
     Warn(i, monotonic_nanos);
@@ -185,13 +185,16 @@ void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
   const std::string& problem = slot.frames->now()->problem;
   if (problem.empty()) {
     slot.incomplete_nanos = 0;
+    if (std::exchange(slot.warned_of, "").empty()) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    counters_[NameOf(i)].last_problem.clear();
     return;
   }
   if (slot.incomplete_nanos == 0) slot.incomplete_nanos = monotonic_nanos;
   if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
   if (std::exchange(slot.warned_of, problem) == problem) return;
-  spdlog::warn("{}; does robot_state_publisher run, and is '{}' connected to it in TF?", problem,
-               frame_->name());
+  spdlog::warn("{}: {}; does robot_state_publisher run, and is '{}' connected to it in TF?",
+               NameOf(i), problem, frame_->name());
   const std::lock_guard<std::mutex> lock(mutex_);
   counters_[NameOf(i)].last_problem = problem;
 }

@@ -69,16 +69,19 @@ class CloudField {
       default: return Read<double>(at);
     }
   }
-  // Of four bytes: 0xAARRGGBB.
+  // Of four bytes: 0xAARRGGBB; of "rgb", the first has no meaning.
   std_msgs::ColorRGBA Packed(const std::uint8_t* point) const {
     const auto bits = Read<std::uint32_t>(point + offset_);
-    return Color(static_cast<int>(bits >> 16 & 255), static_cast<int>(bits >> 8 & 255),
-                 static_cast<int>(bits & 255));
+    std_msgs::ColorRGBA color =
+        Color(static_cast<int>(bits >> 16 & 255), static_cast<int>(bits >> 8 & 255),
+              static_cast<int>(bits & 255));
+    if (has_alpha_) color.a = static_cast<float>(bits >> 24) / 255.0F;
+    return color;
   }
 
  private:
   explicit CloudField(const sensor_msgs::PointField& field)
-      : offset_(field.offset), type_(field.datatype) {}
+      : offset_(field.offset), type_(field.datatype), has_alpha_(field.name == "rgba") {}
 
   template <class T>
   static T Read(const std::uint8_t* at) {
@@ -93,6 +96,7 @@ class CloudField {
 
   std::size_t offset_;
   std::uint8_t type_;
+  bool has_alpha_;
 };
 
 // Why it cannot be read, or null.
@@ -151,7 +155,13 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
         PointAt(x->Number(point), y->Number(point), z->Number(point));
     if (!std::isfinite(place.x + place.y + place.z)) continue;  // depth cameras send many
     points.points.push_back(place);
-    if (has_colors) colors.push_back(In(style, packed->Packed(point)));
+    if (has_colors) {
+      std_msgs::ColorRGBA color = packed->Packed(point);
+      const float alpha = color.a;
+      color = In(style, color);
+      if (style.alpha) color.a *= alpha;
+      colors.push_back(color);
+    }
     if (field) values.push_back(field->Number(point));
   }
   points.colors = has_colors ? std::move(colors) : ColorsOf(values, style);

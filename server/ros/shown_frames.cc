@@ -20,13 +20,13 @@ constexpr double kUsualLength = 0.2;  // m
 constexpr double kAxisWidth = 0.1;
 constexpr double kShaftWidth = 0.05, kHeadWidth = 0.2, kHeadLength = 0.5;
 constexpr double kShortestArrow = 0.001;  // m
-constexpr double kNameHeight = 0.2;  // ours, which is smaller, and can be read on light and dark
+constexpr double kNameHeight = 0.32;  // ours, which is smaller, and can be read on light and dark
 constexpr Rgb kNameColor = {0.38, 0.46, 0.62};
 const Vector3d kShaftColor(0.8, 0.8, 0.3), kHeadColor(1, 0.1, 0.6), kGrey(0.7, 0.7, 0.7);
 constexpr int kSidesOfHead = 8;
 constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
 constexpr double kFarthest = kFarthestMarker / 2;
-constexpr std::size_t kMostNamed = 8;
+constexpr std::size_t kMostNamed = 8, kLongestName = 100;  // bytes
 constexpr double kSilentSecs = 2;  // after that a frame is no longer heard of
 
 std::shared_ptr<SceneMarker> EmptyMarker(int id, MarkerType type) {
@@ -57,7 +57,7 @@ std::string ListOf(const char* what, const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
     text += (text.empty() ? std::string(what) + ": " : ", ") +
-            PrintableLine(names[i].substr(0, kMaxMarkerText));
+            PrintableLine(names[i].substr(0, kLongestName));
   }
   if (names.size() > kMostNamed) {
     text += " and " + std::to_string(names.size() - kMostNamed) + " more";
@@ -208,8 +208,7 @@ void ShownFrames::Draw() {
   for (std::size_t i = 0; style_.frames.has_names && i < shown_.size(); ++i) {
     const Shown& frame = shown_[i];
     const auto name = EmptyMarker(static_cast<int>(i) + 3, MarkerType::kText);
-    name->text = PrintableLine(frame.name.substr(0, kMaxMarkerText / 2));
-    if (name->text.size() > kMaxMarkerText) continue;
+    name->text = PrintableLine(frame.name.substr(0, kLongestName));
     name->scale.z() = style_.frames.name_m.value_or(kNameHeight * length);
     name->pose.position = frame.pose.position - Vector3d(0, 0, name->scale.z() / 2);
     name->color = Faded(color, frame.grey, frame.alpha);

@@ -32,8 +32,8 @@ Marker GridMarker(const std::string& frame, const ShownStyle& style) {
   color.a = static_cast<float>(style.alpha.value_or(0.5));
   Marker lines = MarkerOf(header, 0, Marker::LINE_LIST, color);
   lines.ns = kNamespaceOfGrids;
-  lines.frame_locked = 1U;  // it goes with its frame
-  lines.scale.x = style.width_m.value_or(std::clamp(0.1 * cell, 0.001, 0.01));
+  lines.frame_locked = 1U;                    // it goes with its frame
+  lines.scale.x = style.width_m.value_or(1);  // else in pixels
   const auto [right, ahead, up] = DirectionsOf(grid.plane);
   const Vector3d middle(grid.offset[0], grid.offset[1], grid.offset[2]);
   const auto at = [&, &right = right, &ahead = ahead, &up = up](int x, int y, int z) {

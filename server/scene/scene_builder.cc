@@ -299,18 +299,20 @@ void SceneBuilder::Publish(Liveness liveness) {
 
 // A link of a person is where it is in this very sample; another frame where it was found last.
 void SceneBuilder::PlaceCamera(SceneState& scene) {
-  const std::string& frame = options_.camera_frame;
+  const auto& [frame, axes] = options_.camera_frame;
   if (frame.empty()) return;
   for (const PersonState& person : scene.people) {
     for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
       if (urdf::LinkName(person.model->human.model_name, segment) != frame) continue;
-      scene.camera_base = current_.camera_base = person.links[urdf::At(segment)];
+      urdf::Pose base = person.links[urdf::At(segment)];
+      if (!axes.empty()) base.orientation = scene.camera_base.value_or(urdf::Pose{}).orientation;
+      scene.camera_base = current_.camera_base = base;
       return;
     }
   }
   // Frames of TF may come some time after the first sample.
   constexpr double kPatienceSecs = 5;
-  if (scene.people.empty() || scene.camera_base) return;
+  if (scene.stamp_nanos == 0 || scene.camera_base) return;
   if (!camera_since_nanos_) camera_since_nanos_ = scene.stamp_nanos;
   if (Secs(scene.stamp_nanos - *camera_since_nanos_) > kPatienceSecs) WarnOfCamera();
 }
@@ -319,11 +321,11 @@ void SceneBuilder::PlaceCamera(SceneState& scene) {
 void SceneBuilder::WarnOfCamera() const {
   constexpr char kFrameOfRviz[] = "map";  // in configurations, whether or not there is one
   static std::atomic<bool> is_told{false};
-  if (options_.camera_frame == kFrameOfRviz || is_told.exchange(true)) return;
+  if (options_.camera_frame.at == kFrameOfRviz || is_told.exchange(true)) return;
   spdlog::warn(
       "no frame '{}' has come (--camera_tf), neither of TF nor of a person; the camera stands as "
       "if it were at the origin",
-      options_.camera_frame);
+      options_.camera_frame.at);
 }
 
 SceneBuilder::~SceneBuilder() {

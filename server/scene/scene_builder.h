@@ -36,8 +36,8 @@ struct SceneOptions : ModelSettings {
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
   GraphView bag;                  // what SceneReader shows of a bag
   /// Of SceneState::camera_base, unless OnSurroundings() or SetCameraBase() place it: a link of a
-  /// person, "skeleton_pelvis". "": the camera goes with nothing.
-  std::string camera_frame;
+  /// person, "skeleton_pelvis".
+  CameraFrames camera_frame;
   /// Measured forces of a recording, on the first person; in place of SetMeasurements().
   std::optional<wrenches::WrenchSettings> wrenches;
   /// Changed bodies are made on a thread of their own and used when they are ready, so that they

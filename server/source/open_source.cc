@@ -75,7 +75,7 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
     case SourceKind::kUdp:
     case SourceKind::kTcp:
       return mvn::OpenStream(mvn::Tapped(mvn::OpenDatagrams(url), settings.tap), settings.stream);
-    case SourceKind::kGraph: return ros_bridge::OpenGraph(url);
+    case SourceKind::kGraph: return ros_bridge::OpenGraph(url, settings.bag);
     case SourceKind::kSubject:
       return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0,
                                   settings.subject_height_m);

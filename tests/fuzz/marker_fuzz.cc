@@ -43,7 +43,7 @@ void CheckMarkers(const std::vector<visualization_msgs::Marker>& markers) {
     }
     // The pose of a frame is that of its message, as far as this knows; every other frame is lost.
     static_cast<void>(store.Update(now, [](const std::string& frame, std::int64_t) {
-      return frame.size() % 2 == 0 ? std::optional<urdf::Pose>(urdf::Pose{}) : std::nullopt;
+      return frame.size() % 2 == 0 ? std::make_optional(FramePlace{}) : std::nullopt;
     }));
     for (const MarkerStore::Lost& lost : store.TakeLost()) KINESCOPE_CHECK(!lost.text.empty());
   }

@@ -157,6 +157,40 @@ TEST_F(MarkerDrawing, DrawsPointsInPixelsEquallyLargeInEachTile) {
   EXPECT_EQ(change.bottom - change.top, 3);
 }
 
+// Upright lines before and behind the middle of the picture, of which the second begins behind the
+// camera.
+TEST_F(MarkerDrawing, DrawsLinesOfAPixelAtAnyDistance) {
+  Camera camera = Ahead();
+  camera.position.z() = camera.target.z();
+  const Eigen::Vector3d ahead = camera.target - camera.position;
+  const auto line = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    SceneMarker marker = PointsInPixels(1, {from, to});
+    marker.type = MarkerType::kLineList;
+    return marker;
+  };
+  for (const Camera& seen_by : {camera, Orthographic(camera)}) {
+    const Image empty = renderer_->Render(Empty(), seen_by, spec_);
+    for (const double times : {0.3, 3.0}) {
+      const Eigen::Vector3d middle = camera.position + times * ahead;
+      const Eigen::Vector3d up(0, 0, 0.2);
+      const Comparison change =
+          Compare(empty, renderer_->Render(With({line(middle - up, middle + up)}), seen_by, spec_));
+      EXPECT_LE(change.right - change.left, 1) << times;
+      const Projected at = Project(middle, seen_by, kViewWidth, kViewHeight);
+      const Projected end = Project(middle + up, seen_by, kViewWidth, kViewHeight);
+      EXPECT_NEAR(change.bottom - change.top, 2 * (at.y_px - end.y_px), 2) << times;
+    }
+  }
+  const Eigen::Vector3d below(0, 0, 0.5);
+  const Image empty = renderer_->Render(Empty(), camera, spec_);
+  const Comparison change =
+      Compare(empty, renderer_->Render(With({line(camera.position - ahead - below,
+                                                  camera.position + 20 * ahead - below)}),
+                                       camera, spec_));
+  EXPECT_LE(change.right - change.left, 1) << "straight down from the middle";
+  EXPECT_EQ(change.bottom, kViewHeight - 1);
+}
+
 TEST_F(MarkerDrawing, RejectsTooManyTrianglesByName) {
   SceneMarker flood;
   flood.ns = "flood";

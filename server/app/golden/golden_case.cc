@@ -17,6 +17,7 @@
 #include "server/options/yaml_options.h"
 #include "server/picture/moving_robots.h"
 #include "server/picture/render_planner.h"
+#include "server/picture/rviz_option.h"
 #include "server/picture/scene_additions.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
@@ -222,6 +223,7 @@ void GoldenCase::List(options::OptionList& option) {
   option("mask", masks, "part of the picture that may show anything, and why; may be repeated");
   option("tolerance", limits, "limit of a layer that is not the default, and why; may be repeated");
   option("why", why, "purpose of the case, shown when it fails");
+  option("rviz", rviz, kRvizHelp);
   view.List(option);
   person.List(option);
   loads.List(option);
@@ -257,6 +259,10 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
     golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }
   for (options::Option& option : list) option.value->SetFolder(yaml.parent_path());
+  // Whose topics need a bag, so the source is known by now.
+  if (golden_case.rviz.IsGiven()) {
+    ApplyRviz(golden_case.rviz, ToPictureSpec(golden_case.view).height, list);
+  }
   return golden_case;
 }
 

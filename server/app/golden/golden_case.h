@@ -53,6 +53,7 @@ struct GoldenCase {
   MasksValue masks;
   LimitsValue limits;
   options::Text why;
+  options::FilePath rviz;
   ViewOptions view;
   PersonOptions person;
   LoadOptions loads;

@@ -238,8 +238,9 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   const bool is_bag = IsBag(config.source_url);
   std::vector<GraphRobot> robots = ReadMovingRobots(*options.robot);
   config.source.bag = config.scene.bag;
-  const std::string& camera_frame = options.camera_moves.camera_tf->frame;
+  const CameraFrames camera_frame = options.camera_moves.camera_tf->frames();
   config.scene.camera_frame = camera_frame;
+  config.source.bag.reference_frame = *options.reference_frame;
   if (is_bag) {
     config.source.bag.needs_person = false;
     config.source.bag.topics = *options.marker_topics;

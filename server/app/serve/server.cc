@@ -348,8 +348,10 @@ void Server::OnTime(std::int64_t now_nanos) {
   counters_.Publish(counters);
   stream_meter_.OnCounters(*counters, now_nanos);
   stream_.Publish(std::make_shared<const StreamHealth>(stream_meter_.health()));
-  const bool shows_others = states_.Get()->liveness == Liveness::kNoPerson;
-  if (!shows_others) missing_pose_warning_.OnCounters(*counters, source_->description(), now_nanos);
+  has_shown_others_ = has_shown_others_ || states_.Get()->liveness == Liveness::kNoPerson;
+  if (!has_shown_others_) {
+    missing_pose_warning_.OnCounters(*counters, source_->description(), now_nanos);
+  }
   crowd_warning_.OnCounters(*counters);
 }
 

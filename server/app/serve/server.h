@@ -97,6 +97,7 @@ class Server {
   const std::unique_ptr<RecordingLength> length_;  // null: it cannot be found
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;
+  bool has_shown_others_ = false;  // a bag or a graph without people
   CrowdWarning crowd_warning_;
   StreamHealthMeter stream_meter_;
   std::int64_t counters_due_nanos_ = 0;

@@ -89,7 +89,8 @@ void BagReader::End(Ending::Kind kind, std::string reason) {
 
 void BagReader::LoseFraming(const char* reason) {
   Count(reason);
-  if (chunk_) return CloseChunk();
+  if (chunk_ && !chunk_->has_two_lengths) return CloseChunk();
+  chunk_.reset();
   if (index_at_ > 0 && at_ >= index_at_) return End(Ending::Kind::kClosed);  // nothing else follows
   if (!FindChunk()) End(Ending::Kind::kDamaged, reason);
 }
@@ -277,7 +278,11 @@ bool BagReader::ReadMessage(const BagRecordHeader& header, std::uint32_t size,
     Skip(size);
     return false;
   }
-  const auto connection = connections_.find(*header.connection);
+  auto connection = connections_.find(*header.connection);
+  if (connection == connections_.end()) {
+    ReadConnectionsOfIndex();
+    connection = connections_.find(*header.connection);
+  }
   if (connection == connections_.end()) {
     Count(kUnknownConnection);
     Skip(size);
@@ -307,10 +312,14 @@ void BagReader::ReadConnection(const BagRecordHeader& header, std::uint32_t size
   }
   if (chunk_ && size > chunk_->left) return LoseFraming(kBeyondChunk);
   bytes_.resize(size);
-  if (!Read(bytes_.data(), size)) return;
+  if (Read(bytes_.data(), size)) AddConnection(header, bytes_);
+}
+
+void BagReader::AddConnection(const BagRecordHeader& header,
+                              const std::vector<std::uint8_t>& data) {
   BagConnection connection;
   connection.topic = header.topic;
-  const bool is_sound = ForEachBagField(bytes_, [&](std::string_view name, std::string_view value) {
+  const bool is_sound = ForEachBagField(data, [&](std::string_view name, std::string_view value) {
     if (name == "type") connection.type = value;
     if (name == "md5sum") connection.md5sum = value;
   });
@@ -320,6 +329,30 @@ void BagReader::ReadConnection(const BagRecordHeader& header, std::uint32_t size
     return Count(kManyConnections);
   }
   connections_[*header.connection] = std::move(connection);
+}
+
+// Closed bags repeat all connections there, after the chunks.
+void BagReader::ReadConnectionsOfIndex() {
+  if (std::exchange(has_read_index_, true) || !can_seek_ || index_at_ == 0) return;
+  std::FILE* const file = file_.get();
+  const off_t here = ftello(file);
+  std::vector<std::uint8_t> bytes;
+  const auto read = [&](std::uint32_t most) {
+    std::uint32_t size = 0;
+    if (std::fread(&size, sizeof size, 1, file) != 1 || size > most) return false;
+    bytes.resize(size);
+    return std::fread(bytes.data(), 1, size, file) == size;
+  };
+  if (index_at_ < file_size_ && fseeko(file, static_cast<off_t>(index_at_), SEEK_SET) == 0) {
+    for (BagRecordHeader header; read(kLargestHeader) && header.Parse(bytes); header = {}) {
+      if (!read(kLargestConnection)) break;
+      const bool is_new = header.op == BagOp::kConnection && header.connection &&
+                          !header.topic.empty() && connections_.count(*header.connection) == 0;
+      if (is_new) AddConnection(header, bytes);
+    }
+  }
+  std::clearerr(file);
+  if (fseeko(file, here, SEEK_SET) != 0) End(Ending::Kind::kUnreadable, "it cannot be sought in");
 }
 
 void BagReader::OpenChunk(const BagRecordHeader& header, std::uint32_t size) {
@@ -335,8 +368,9 @@ void BagReader::OpenChunk(const BagRecordHeader& header, std::uint32_t size) {
   if (!is_packed) {
     if (!is_complete) return;  // its records follow as if there were no chunk
     // The larger one is the safer one: the next chunk ends this one.
-    if (size != unpacked_size) Count(kBadChunkLength);
     chunk_ = Chunk();
+    chunk_->has_two_lengths = size != unpacked_size;
+    if (chunk_->has_two_lengths) Count(kBadChunkLength);
     chunk_->left = chunk_->left_in_file = std::max(size, unpacked_size);
     return;
   }

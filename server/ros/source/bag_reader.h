@@ -39,7 +39,8 @@ struct BagMessage {
 InputFile OpenBagFile(const std::string& path);
 
 /// Needs neither the index nor the end of a bag, so that it also reads one that was not closed, is
-/// truncated, or is compressed as a whole. Memory is limited, whatever the lengths in the file
+/// truncated, or is compressed as a whole. Where the record of a connection is damaged, the index
+/// has it again. Memory is limited, whatever the lengths in the file
 /// state: chunks are decompressed while they are read, and messages that are not wanted are
 /// skipped.
 ///
@@ -81,6 +82,7 @@ class BagReader {
   struct Chunk {
     std::uint64_t left = 0;                  // bytes, decompressed
     std::uint64_t left_in_file = 0;          // bytes, as stored
+    bool has_two_lengths = false;            // which differ, so that its end is not sure
     std::unique_ptr<Decompressor> unpacker;  // null: not compressed
   };
 
@@ -88,6 +90,9 @@ class BagReader {
   bool ReadRecord(BagMessage& message);
   bool ReadMessage(const BagRecordHeader& header, std::uint32_t size, BagMessage& message);
   void ReadConnection(const BagRecordHeader& header, std::uint32_t size);
+  /// `data`: of its record.
+  void AddConnection(const BagRecordHeader& header, const std::vector<std::uint8_t>& data);
+  void ReadConnectionsOfIndex();
   void OpenChunk(const BagRecordHeader& header, std::uint32_t size);
   void CloseChunk();
 
@@ -123,6 +128,7 @@ class BagReader {
   std::map<std::uint32_t, BagConnection> connections_;
   std::size_t connection_bytes_ = 0;
   std::map<std::string, std::uint64_t> defects_;
+  bool has_read_index_ = false;
   bool has_ended_ = false;
   Ending ending_;
 };

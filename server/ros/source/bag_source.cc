@@ -21,6 +21,7 @@
 #include "server/ros/scene_frame.h"
 #include "server/ros/source/bag_messages.h"
 #include "server/ros/source/bag_surroundings.h"
+#include "server/ros/source/common_frame.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/motion_joiner.h"
 #include "server/ros/source/transform_people.h"
@@ -63,6 +64,11 @@ struct Appearances {
 // Passes everything on, and knows the times of the newest samples.
 class SampleWatch : public SampleSink {
  public:
+  using Bring = std::function<void(BodySample& sample)>;
+
+  /// `bring`: to the frame of the scene.
+  explicit SampleWatch(Bring bring) : bring_(std::move(bring)) {}
+
   void SetSink(SampleSink* sink) { sink_ = sink; }
   std::int64_t newest_nanos() const { return newest_nanos_; }
   std::int64_t step_nanos() const { return step_nanos_; }  // from the one before; 0: was none
@@ -71,12 +77,15 @@ class SampleWatch : public SampleSink {
   void OnSample(const BodySample& sample) override {
     const std::int64_t before = std::exchange(newest_nanos_, sample.stamp_nanos);
     step_nanos_ = before == 0 ? 0 : newest_nanos_ - before;
-    sink_->OnSample(sample);
+    BodySample brought = sample;
+    bring_(brought);
+    sink_->OnSample(brought);
   }
   void OnSurroundings(const RecordedSurroundings& all) override { sink_->OnSurroundings(all); }
   void OnMoment(const SourceMoment& moment) override { sink_->OnMoment(moment); }
 
  private:
+  const Bring bring_;
   SampleSink* sink_ = nullptr;
   std::int64_t newest_nanos_ = 0;  // 0: there was none
   std::int64_t step_nanos_ = 0;
@@ -90,7 +99,11 @@ class BagSource : public Source {
         needs_person_(view.needs_person),
         surroundings_(view),
         messages_(OpenBagFile(path),
-                  [this](const BagConnection& connection) { return IsUsed(connection); }) {
+                  [this](const BagConnection& connection) { return IsUsed(connection); }),
+        common_frame_(fmt::format("bag '{}'", path), ""),
+        watch_([this](BodySample& sample) {
+          common_frame_.Bring(sample, people_.RootOf(sample.character), world_);
+        }) {
     joiner_.SetSink(&watch_);
     ReadNames();
     world_ = has_person_ ? FindWorld() : FindRoot();
@@ -147,6 +160,7 @@ class BagSource : public Source {
   /// Moments go on when no sample comes, if something else is shown.
   void PassMomentWithoutPeople(std::int64_t now_nanos);
   State End();
+  void WarnOfUnused() const;
 
   /// Why the bag has no person, and what to do about it.
   std::string WhyNobody(const BagMessages& all) const;
@@ -161,6 +175,7 @@ class BagSource : public Source {
   xsens_mvn_ros_msgs::LinkStateArray link_states_;
   TransformPeople people_{0};
   MotionJoiner joiner_;
+  CommonFrame common_frame_;
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
   std::string world_;
@@ -216,6 +231,7 @@ void BagSource::ReadNames() {
     }
   }
   people_.FindPeople();
+  if (ShowsSomething(ahead)) surroundings_.Expect();
   if (!of_link_states.empty()) joiner_.Expect();
   if (people_.people().empty() && !of_link_states.empty()) {
     for (const auto& [topic, appearance] : of_link_states) {
@@ -241,8 +257,12 @@ void BagSource::ReadNames() {
 }
 
 bool BagSource::ShowsSomething(const BagMessages& all) const {
-  return std::any_of(all.connections().begin(), all.connections().end(),
-                     [&](const auto& each) { return surroundings_.IsUsed(each.second); });
+  return std::any_of(all.connections().begin(), all.connections().end(), [&](const auto& each) {
+    const BagConnection& connection = each.second;
+    return surroundings_.IsUsed(connection) ||
+           (surroundings_.ShowsFrames() && HasTransforms(connection) &&
+            HasTransformType(connection));
+  });
 }
 
 std::string BagSource::WhyNobody(const BagMessages& all) const {
@@ -365,6 +385,7 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
 Source::State BagSource::End() {
   has_ended_ = true;
   people_.End(counters_);
+  WarnOfUnused();
   const BagReader::Ending& ending = messages_.ending();
   if (ending.kind == BagReader::Ending::Kind::kDamaged && messages_.read() > 0) {
     spdlog::warn("{}", WhyDamaged(messages_));
@@ -382,6 +403,16 @@ Source::State BagSource::End() {
   return State::kEnded;
 }
 
+// What stands in the scene names its own.
+void BagSource::WarnOfUnused() const {
+  std::vector<std::string> kinds;
+  for (const auto& [defect, count] : counters_.rejected) {
+    if (surroundings_.HasNamed(defect)) continue;
+    kinds.push_back(fmt::format("{}: {}", defect, count));
+  }
+  if (!kinds.empty()) spdlog::warn("bag '{}': not used: {}", name_, fmt::join(kinds, ", "));
+}
+
 void BagSource::Take(const BagMessage& message) {
   ++counters_.datagrams;
   counters_.bytes += message.size;
@@ -393,6 +424,7 @@ void BagSource::Take(const BagMessage& message) {
   }
   const bool is_static = IsStatic(message.connection->topic);
   surroundings_.AddTransforms(message_, message.connection->topic, is_static);
+  common_frame_.Take(message_, is_static);
   if (is_static) {
     people_.TakeStatic(message_, counters_);
   } else {

@@ -68,6 +68,7 @@ BagSurroundings::BagSurroundings(const GraphView& view)
   for (const ShownTopic& topic : view.topics) {
     leaves_out_others_ = leaves_out_others_ || topic.leaves_out_others;
     if (!topic.is_frame) continue;
+    shows_frames_ = shows_frames_ || !topic.is_grid;
     if (topic.is_every_frame()) {
       frames_.emplace(topic.style, kPlaceEveryNanos);
       continue;
@@ -172,7 +173,7 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
   const auto apply = [&](const std::optional<std::size_t>& number, const ShownStyle& style) {
     if (!number) return;
     const auto refused = store_.ApplyAll(*number, array_.markers, message.recorded_nanos, style);
-    if (refused) ++counters.rejected[std::string("marker: ") + refused->kind];
+    if (refused) Reject(message, *refused, counters);
   };
   const auto [first, last] = heard_.equal_range(name);
   if (first == last) return apply(NumberOf(message.connection->topic, counters), {});
@@ -184,10 +185,16 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
 
 void BagSurroundings::Reject(const BagMessage& message, const Refusal& refusal,
                              SourceCounters& counters) {
-  ++counters.rejected[message.connection->type + ": " + refusal.kind];
+  const std::string defect = message.connection->type + ": " + refusal.kind;
+  ++counters.rejected[defect];
+  named_.insert(defect);
+  const std::string topic = WithSlash(message.connection->topic);
+  Note(refusal.is_partial ? topic : topic + ": not shown", refusal);
+}
+
+void BagSurroundings::Note(const std::string& what, const Refusal& refusal) {
   if (rejected_.size() >= kMostWarnings) return;
-  rejected_.insert(
-      fmt::format("{}: not shown: {}", WithSlash(message.connection->topic), refusal.text));
+  rejected_.try_emplace(what + refusal.kind, what + ": " + refusal.text);
 }
 
 void BagSurroundings::TakeShown(const ShownTopic& topic, std::size_t number,
@@ -249,8 +256,7 @@ void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, const st
   const bool is_used = has_markers_ || has_scenes_on_images_ || !robots_.empty() ||
                        camera_frame_.is_wanted() || frames_ || is_static;
   const auto refusal = is_used ? tf_.Add(message, is_static) : std::nullopt;
-  const bool is_first = refusal && refused_transforms_.insert(refusal->kind).second;
-  if (is_first) rejected_.insert(WithSlash(topic) + ": " + refusal->text);
+  if (refusal) Note(WithSlash(topic), *refusal);
 }
 
 std::vector<const RobotFrames*> BagSurroundings::Frames() const {
@@ -268,7 +274,7 @@ bool BagSurroundings::PlaceRobots(std::int64_t now_nanos, const std::string& wor
   for (Robot& robot : robots_) {
     const auto find = [&](const std::string& frame) -> std::optional<urdf::Pose> {
       if (frame == world) return urdf::Pose{};
-      return tf_.Find(world, frame, 0);
+      return PoseOf(tf_.Find(world, frame, 0));
     };
     has_moved = robot.frames.Place(find) || has_moved;
   }
@@ -279,16 +285,17 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
                              const std::string& bag, SampleSink& sink) {
   if (world.empty()) return;
   const auto find = [&](const std::string& frame,
-                        std::int64_t stamp_nanos) -> std::optional<urdf::Pose> {
-    if (frame.empty() || frame == world) return urdf::Pose{};
+                        std::int64_t stamp_nanos) -> std::optional<FramePlace> {
+    if (frame.empty() || frame == world) return FramePlace{};
     if (auto found = tf_.Find(world, frame, stamp_nanos)) return found;
-    return FindChainedOf(Frames(), frame);
+    const auto chained = FindChainedOf(Frames(), frame);
+    return chained ? std::make_optional(FramePlace{*chained}) : std::nullopt;
   };
   const bool has_moved = PlaceRobots(now_nanos, world);
   const bool has_new_markers = has_markers_ && store_.Update(now_nanos, find);
   images_.Update(now_nanos, find);
   const bool has_new_images = images_.TakeChanged();
-  const auto find_now = [&find](const std::string& frame) { return find(frame, 0); };
+  const auto find_now = [&find](const std::string& frame) { return PoseOf(find(frame, 0)); };
   const bool has_new_base = camera_frame_.Update(now_nanos, find_now);
   const auto list = [&](const ShownFrames::TakeFrame& take) {
     for (const auto& [name, frame] : tf_.frames()) take(frame);
@@ -323,7 +330,7 @@ void BagSurroundings::WarnOfProblems(const std::string& bag) const {
     const std::string& problem = robot.frames.now()->problem;
     if (!problem.empty()) warn(problem);
   }
-  for (const std::string& text : rejected_) warn(text);
+  for (const auto& [kind, text] : rejected_) warn(text);
   std::size_t count = 0;
   for (const MarkerStore::Lost& lost : store_.Unplaced()) {
     if (++count <= kMostWarnings) warn(lost.text);

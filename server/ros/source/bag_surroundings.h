@@ -14,7 +14,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/source.h"
@@ -44,6 +43,12 @@ class BagSurroundings {
 
   /// The frame of the first thing that is shown; "": there is none yet.
   std::string FirstFrame() const { return store_.FirstFrame(); }
+  /// Whether WarnOfProblems() tells what is counted as `defect`.
+  bool HasNamed(const std::string& defect) const { return named_.count(defect) > 0; }
+  /// Whether frames of TF are to be shown: all, or the axes of some.
+  bool ShowsFrames() const { return shows_frames_; }
+  /// The bag has something that is shown.
+  void Expect() { has_markers_ = true; }
   /// Whether there is a marker, an image or a robot, with or without a place.
   bool HasSomething() const {
     return !robots_.empty() || !FirstFrame().empty() || !images_.images().empty();
@@ -88,6 +93,7 @@ class BagSurroundings {
   /// several ways has a number each.
   /// Counts what is not shown of a topic, and remembers why.
   void Reject(const BagMessage& message, const Refusal& refusal, SourceCounters& counters);
+  void Note(const std::string& what, const Refusal& refusal);
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
   std::vector<const RobotFrames*> Frames() const;
@@ -108,11 +114,12 @@ class BagSurroundings {
   FollowedFrame camera_frame_;
   std::optional<ShownFrames> frames_;
   TfTree tf_;
-  std::map<std::string, std::size_t> topics_;      // their numbers
-  std::set<std::string> lost_frames_;              // that were warned of
-  std::set<std::string> heard_topics_;             // those that a message came on
-  std::set<std::string> rejected_;                 // "/cloud: <why>"
-  std::set<std::string_view> refused_transforms_;  // kinds of which rejected_ has one
+  std::map<std::string, std::size_t> topics_;    // their numbers
+  std::set<std::string> lost_frames_;            // that were warned of
+  std::set<std::string> heard_topics_;           // those that a message came on
+  std::map<std::string, std::string> rejected_;  // the first one, by topic and kind
+  bool shows_frames_ = false;
+  std::set<std::string> named_;  // as they are counted
   visualization_msgs::Marker marker_;
   visualization_msgs::MarkerArray array_;
 };

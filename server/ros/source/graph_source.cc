@@ -21,6 +21,7 @@
 #include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/ros_clock.h"
+#include "server/ros/source/common_frame.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/live_topics.h"
 #include "server/ros/source/publisher_clocks.h"
@@ -87,11 +88,31 @@ class SamplesInWallTime : public SampleSink {
   SampleSink& sink_;
 };
 
+// Passes samples on in one frame.
+class SamplesInOneFrame : public SampleSink {
+ public:
+  SamplesInOneFrame(CommonFrame& frame, const TransformPeople& people, SampleSink& sink)
+      : frame_(frame), people_(people), sink_(sink) {}
+
+  void OnCharacter(const Character& character) override { sink_.OnCharacter(character); }
+  void OnSample(const BodySample& sample) override {
+    BodySample in_frame = sample;
+    frame_.Bring(in_frame, people_.RootOf(sample.character), people_.root());
+    sink_.OnSample(in_frame);
+  }
+
+ private:
+  CommonFrame& frame_;
+  const TransformPeople& people_;
+  SampleSink& sink_;
+};
+
 class GraphSource : public Source {
  public:
-  explicit GraphSource(const std::string& topic)
+  GraphSource(const std::string& topic, const GraphView& view)
       : description_("ros:" + topic),
         people_(kSettleNanos),
+        common_frame_(description_, view.reference_frame),
         link_states_(OwnerOfTopic(topic)),
         names_(TopicsBeside(topic)),
         topics_(names_, description_, [this](std::size_t index, const LiveTopics::Event& event) {
@@ -173,14 +194,19 @@ class GraphSource : public Source {
     const std::string sum = md5 == connection.end() ? "" : md5->second;
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
-      if (index > 0) return people_.TakeStatic(transforms_, counters_);
+      if (index > 0) {
+        common_frame_.Take(transforms_, true);
+        return people_.TakeStatic(transforms_, counters_);
+      }
       const Arrival now = Now();
       frames_nanos_ = now.monotonic_nanos;
       const std::int64_t stamp = NewestStamp();
       const std::int64_t shift = ShiftOf(event, stamp, now);
       for (auto& transform : transforms_.transforms) Shift(transform.header.stamp, shift);
+      common_frame_.Take(transforms_, false);
       return Take([&](SampleSink& sink) {
-        const bool has_person = people_.Take(transforms_, now, counters_, sink);
+        SamplesInOneFrame in_frame(common_frame_, people_, sink);
+        const bool has_person = people_.Take(transforms_, now, counters_, in_frame);
         if (!has_person) return;
         OnPerson(event, stamp, now);
         NoteSender(event.getPublisherName(), now.monotonic_nanos);
@@ -283,6 +309,7 @@ class GraphSource : public Source {
   std::map<std::string, Sender> senders_;  // by the first frame of a message
   PublisherClocks clocks_;
   TransformPeople people_;
+  CommonFrame common_frame_;
   LinkStatesPerson link_states_;
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
   xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory
@@ -314,11 +341,11 @@ std::string MissingInGraph(const Source& graph) {
       graph.description().substr(kScheme.size()));
 }
 
-std::unique_ptr<Source> OpenGraph(const std::string& url) {
+std::unique_ptr<Source> OpenGraph(const std::string& url, const GraphView& view) {
   InitRos();
   const std::string topic = ToTopic(url);
   RefuseNameOfAnother(url);
-  return std::make_unique<GraphSource>(topic);
+  return std::make_unique<GraphSource>(topic, view);
 }
 
 }  // namespace kinescope::ros_bridge

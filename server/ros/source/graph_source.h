@@ -20,6 +20,8 @@ bool IsGraphUrl(std::string_view url);
 ///
 /// - Frames, samples, arms, skeletons and counters are as in bag_source.h, with receive times in
 ///   place of the bag's times; people are searched when no new frame has appeared for 0.25 s.
+/// - People whose frames hang on different ones are brought into one: `view.reference_frame` where
+///   TF connects it with that of the first person, else that of the first person.
 /// - A link state topic belongs to one person; its samples have velocities and accelerations if
 ///   these are published.
 /// - Messages of Kinescope's own node are counted in `ignored`.
@@ -31,7 +33,7 @@ bool IsGraphUrl(std::string_view url);
 /// Starts roscpp, unless it was started before.
 /// @throws SourceError if the topic name is invalid or one of Kinescope's own, or if another node
 /// has this node's name: starting would shut it down.
-std::unique_ptr<Source> OpenGraph(const std::string& url);
+std::unique_ptr<Source> OpenGraph(const std::string& url, const GraphView& view = {});
 
 /// Whether a master answers the source of a graph.
 bool HasMaster(const Source& graph);

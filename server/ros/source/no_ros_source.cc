@@ -15,7 +15,7 @@ std::unique_ptr<Source> OpenBag(const std::string& path, const GraphView& /*view
 
 bool IsGraphUrl(std::string_view url) { return StartsWith(url, "ros:"); }
 
-std::unique_ptr<Source> OpenGraph(const std::string& url) {
+std::unique_ptr<Source> OpenGraph(const std::string& url, const GraphView& /*view*/) {
   throw SourceError("source '" + url +
                     "': this Kinescope was built without ROS and cannot subscribe to it: install "
                     "the ROS packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");

@@ -50,6 +50,11 @@ class TransformPeople {
   const std::vector<PersonFrames>& people() const { return frames_.people(); }
   /// The frame that the first person's samples are in; "" before the first one.
   std::string root() const { return people_.empty() ? "" : people_.front().transforms.root(); }
+  /// That of a person; "": there is none, or no sample of them.
+  std::string RootOf(int character) const {
+    const auto index = static_cast<std::size_t>(character);
+    return index < people_.size() ? people_[index].transforms.root() : "";
+  }
 
  private:
   static constexpr std::size_t kMaxStatic = 4096;  // frames kept, those of robots included

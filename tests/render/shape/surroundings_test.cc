@@ -130,7 +130,7 @@ TEST(Surroundings, HaveEveryTypeOfMarker) {
     if (marker.type == MarkerType::kText) {
       const json label = glb.Node("label");
       EXPECT_EQ(label["extras"]["text"], marker.text);
-      EXPECT_EQ(label["extras"]["height"], marker.scale.z());
+      EXPECT_NEAR(label["extras"]["height"].get<double>(), 0.62 * marker.scale.z(), 1e-6);
       EXPECT_EQ(label["translation"][2], marker.pose.position.z());
       continue;
     }
@@ -149,6 +149,20 @@ TEST(Surroundings, HaveEveryTypeOfMarker) {
     EXPECT_LT(box.exteriorDistance(marker.pose.position), 1e-4) << Name(marker.type);
     EXPECT_LT(box.sizes().maxCoeff(), 1) << Name(marker.type);
   }
+}
+
+TEST(Surroundings, HaveThinLinesAsLines) {
+  SceneMarker grid;
+  grid.type = MarkerType::kLineList;
+  grid.is_in_pixels = true;
+  grid.color = {1, 0, 0, 0.5};
+  grid.points = {{1, 2, 3}, {1, 2, 4}, {0, 0, 0}, {1, 1, 1}};
+  const Glb glb(MakeSurroundingsWriter()->Write(Shared({grid}), {}));
+  const json part = glb.Primitives("lines")[0];
+  EXPECT_EQ(part["mode"], 1) << "lines";
+  EXPECT_EQ(glb.document()["accessors"][part["attributes"]["POSITION"].get<std::size_t>()]["count"],
+            4);
+  EXPECT_EQ(glb.document()["materials"][part["material"].get<std::size_t>()]["alphaMode"], "BLEND");
 }
 
 TEST(Surroundings, HaveSizesOfPointsInPixels) {

@@ -145,7 +145,13 @@ TEST(CameraController, GoesWithAFrameIfItWasPlacedByPoints) {
   expect("cart:heading", {10, 22, 4}, {10, 20, 4}, Vector3d::UnitZ());
   const double c = std::cos(M_PI / 3), s = std::sin(M_PI / 3);
   expect("cart:pose", {10, 20 + 2 * c + s, 3 - 2 * s + c}, {10, 20 + s, 3 + c}, {0, s, c});
+  expect("cart:axes=lab", {10, 20 + 2 * c + s, 3 - 2 * s + c}, {10, 20 + s, 3 + c}, {0, s, c});
   CameraOptions options;
+  options.camera_tf.Parse("/cart:axes=/lab");
+  EXPECT_EQ(options.camera_tf.ToText(), "cart:axes=lab");
+  for (const char* bad : {"cart:axes=", "cart:axes=a b", "cart:axis=lab", ":axes=lab"}) {
+    EXPECT_THROW(options.camera_tf.Parse(bad), options::BadValue) << bad;
+  }
   options.camera_tf.Parse("cart");
   EXPECT_NEAR(Side(CameraController(ParseCamera("front"), options).Aim(state, kAspect)), 0, 1e-6)
       << "named cameras are of the people";

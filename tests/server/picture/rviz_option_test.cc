@@ -92,8 +92,11 @@ TEST(RvizOption, LetsTheCameraGoWithTheFrameOfTheViewWhereThereAreFrames) {
   EXPECT_THAT(odom.said, HasSubstr("lab.rviz:2: Fixed Frame 'odom': the camera stands in it, the "
                                    "floor is that of 'world'"));
   const Applied both = apply("odom", "Class: rviz/Orbit, Target Frame: cart");
-  EXPECT_EQ(both.camera_tf, "cart");
-  EXPECT_THAT(both.said, HasSubstr("Fixed Frame 'odom': the scene is drawn in 'world'"));
+  EXPECT_EQ(both.camera_tf, "cart:axes=odom");
+  EXPECT_THAT(both.said, HasSubstr("Fixed Frame 'odom': the camera stands in it"));
+  EXPECT_EQ(apply("map", "Class: rviz/Orbit, Target Frame: cart").camera_tf, "cart:axes=map");
+  EXPECT_EQ(apply("odom", "Class: rviz/ThirdPersonFollower, Target Frame: cart").camera_tf,
+            "cart:heading");
   EXPECT_EQ(apply("odom", "Class: rviz/Orbit", "on", /*has_camera=*/true).camera_tf, "");
   const Applied bare = apply("world", "Class: rviz/Orbit, Target Frame: cart", "off");
   EXPECT_EQ(bare.camera_tf, "");

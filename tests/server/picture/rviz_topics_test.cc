@@ -87,11 +87,13 @@ Visualization Manager:
   }
   EXPECT_THAT(
       styles,
-      ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,size=0.4)", "(color=#19ff00)",
-                  "(shape=axes,pose_size=0.3,size=0.2)", "(color=#00ff80,shape=cubes,size=0.03)",
-                  "(pixels=5)", "(by=z)", "(color=#010203,force=2.6,torque=2.6,width=0.5)",
-                  "(size=0.5)", "(head=8,size=10)",
-                  "(color=#0000ff,alpha=0.5,head=0.25,size=0.75,covariance=1,covariance_alpha=0.3,"
+      ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,width=0.1,size=0.4)",
+                  "(color=#19ff00)", "(shape=axes,pose_size=0.3,size=0.2)",
+                  "(color=#00ff80,shape=cubes,size=0.03)", "(pixels=5)", "(by=z)",
+                  "(color=#010203,force=2.6,torque=2.6,width=0.5,torque_color=#cccc33)",
+                  "(size=0.5)", "(shaft_width=0.05,head_width=0.1,head=8,size=10)",
+                  "(color=#0000ff,alpha=0.5,shaft_width=0.05,head_width=0.1,head=0.25,size=0.75,"
+                  "covariance=1,covariance_alpha=0.3,"
                   "covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
@@ -180,7 +182,7 @@ Visualization Manager:
             "(by=temperature,from=0,to=30,low=#8ae234,high=#ef2929,shape=spheres,size=0.15)");
   EXPECT_EQ(picture.topics[1].style,
             "(color=#ffef06,force=0.65,torque=0,width=0.3,torque_color=#255fff,small=shown)");
-  EXPECT_EQ(picture.topics[2].style, "(force=0,torque=2.6,width=10)");
+  EXPECT_EQ(picture.topics[2].style, "(force=0,torque=2.6,width=10,torque_color=#cccc33)");
   EXPECT_THAT(picture.remarks, Not(Contains(HasSubstr("Temperature"))));
   EXPECT_THAT(picture.remarks, Not(Contains(HasSubstr("Wrench"))));
   ShownTopicsValue value;
@@ -310,8 +312,10 @@ Visualization Manager:
   ASSERT_EQ(topics.size(), 4u);
   EXPECT_EQ(topics[0].name + topics[0].style, "/goals/update(names=off,shape=axes,alpha=1)");
   EXPECT_EQ(topics[1].name + topics[1].style, "/plain/update");
-  EXPECT_EQ(topics[2].style, "(shape=arrows,head=0.25,size=0.75)");
-  EXPECT_EQ(topics[3].style, "(shape=arrows,head=0.3,pose_color=#ff0000,pose_size=0.4)");
+  EXPECT_EQ(topics[2].style, "(shape=arrows,shaft_width=0.01,head_width=0.03,head=0.25,size=0.75)");
+  EXPECT_EQ(
+      topics[3].style,
+      "(shape=arrows,shaft_width=0.1,head_width=0.3,head=0.3,pose_color=#ff0000,pose_size=0.4)");
   const auto without = topics_of("{Class: rviz/MoveCamera}, {Class: rviz/Interact}");
   EXPECT_EQ(without.at(1).style, "(handles=off)") << "Interact is not the active tool";
   ShownTopicsValue value;
@@ -394,15 +398,15 @@ TEST(RvizTopics, DoesNotUseTheAlphaOfLines) {
     EXPECT_EQ(StyleOf("Class: rviz/" + std::string(kind) + ", Topic: /a, Alpha: 0"), "") << kind;
   }
   EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Alpha: 0.5, Shape: Axes"),
-            "(alpha=0.5,shape=axes)");
+            "(alpha=0.5,shape=axes,width=0.01)");
 }
 
 TEST(RvizTopics, HasThePartsOfArrows) {
   EXPECT_EQ(StyleOf("Class: rviz/Pose, Topic: /a, Shaft Length: 2, Shaft Radius: 0.1"),
-            "(shaft_width=0.1,head=0.3,size=2.3)");
+            "(shaft_width=0.1,head_width=0.1,head=0.3,size=2.3)");
   EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Shape: Arrow (3D), Shaft Length: 1, "
                     "Head Length: 0.07, Head Radius: 0.02"),
-            "(shape=arrows,head_width=0.02,head=0.07,size=1.07)");
+            "(shape=arrows,shaft_width=0.01,head_width=0.02,head=0.07,size=1.07)");
   EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Shape: Axes, Axes Radius: 0.02"),
             "(shape=axes,width=0.02)");
   ShownTopicsValue value;
@@ -423,15 +427,15 @@ TEST(RvizTopics, HasAxesOfItsFixedFrame) {
         .name;
   };
   EXPECT_EQ(name_in("odom"), "tf:odom");
-  EXPECT_EQ(name_in("map"), "tf:") << "RViz begins with it, and it need not be there";
+  EXPECT_EQ(name_in("map"), "tf:map");
 }
 
 TEST(RvizTopics, HasGridsAsTopics) {
   const auto grid_of = [](const std::string& properties) {
     return TopicsOf("Class: rviz/Grid" + properties).at(0);
   };
-  EXPECT_EQ(grid_of("").name, "grid:");
-  EXPECT_EQ(grid_of("").style, "") << "ours is RViz's usual one";
+  EXPECT_EQ(grid_of("").name, "grid:map");
+  EXPECT_EQ(grid_of("").style, "(missing=scene)") << "else ours is RViz's usual one";
   EXPECT_TRUE(grid_of("").is_floor);
   EXPECT_FALSE(grid_of("").floor_differs);
   EXPECT_TRUE(grid_of(", Plane Cell Count: 20").is_floor);
@@ -440,13 +444,16 @@ TEST(RvizTopics, HasGridsAsTopics) {
   EXPECT_FALSE(grid_of(", Plane: YZ").is_floor);
   EXPECT_EQ(grid_of(", Reference Frame: /table").name, "grid:table");
   EXPECT_EQ(grid_of(", Reference Frame: /table").style, "(missing=origin)");
-  EXPECT_EQ(grid_of(", Plane Cell Count: 3.7").style, "(cells=1)") << "no whole number is 0";
-  EXPECT_EQ(grid_of(", Alpha: 1, Alpha: 0.25").style, "(alpha=0.25)") << "the last one counts";
+  EXPECT_EQ(grid_of(", Plane Cell Count: 3.7").style, "(cells=1,missing=scene)")
+      << "no whole number is 0";
+  EXPECT_EQ(grid_of(", Alpha: 1, Alpha: 0.25").style, "(alpha=0.25,missing=scene)")
+      << "the last one counts";
   EXPECT_EQ(grid_of(", Plane: XZ, Cell Size: 0.5, Plane Cell Count: 20, Normal Cell Count: 2, "
                     "Color: 255; 0; 0, Alpha: 1, Offset: {X: 1, Y: 0, Z: -0.9}, "
                     "Line Style: {Value: Billboards, Line Width: 0.05}")
                 .style,
-            "(size=0.5,cells=20,layers=2,plane=xz,at=1|0|-0.9,color=#ff0000,alpha=1,width=0.05)");
+            "(size=0.5,cells=20,layers=2,plane=xz,at=1|0|-0.9,color=#ff0000,alpha=1,width=0.05,"
+            "missing=scene)");
   const RvizPicture fixed = ReadText(WithDisplays("    - {Class: rviz/Grid, Enabled: true}\n",
                                                   "  Global Options: {Fixed Frame: odom}\n"));
   EXPECT_EQ(fixed.topics.at(0).name + fixed.topics.at(0).style, "grid:odom(missing=scene)");

@@ -279,7 +279,7 @@ TEST(Frames, AreThoseOfTheNewTimeAfterTimeWasSetBack) {
   EXPECT_FALSE(tf.Add(Frame("world", "wall", 4), true));
   const auto x = [&](const std::string& frame) {
     const auto pose = tf.Find("world", frame, 2'000'000'000);
-    return pose ? pose->position.x() : kNan;
+    return pose ? pose->pose.position.x() : kNan;
   };
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(tf.Add(Frame("world", "plate", 2), false));
   EXPECT_EQ(x("plate"), 1) << "a few late transforms are late, and no more";
@@ -317,11 +317,32 @@ TEST(Frames, OfOneThatWasInTheFutureComeBackAndOthersStay) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   const auto x = [&](const std::string& frame) {
     const auto pose = tf.Find("world", frame, 2'000'000'000);
-    return pose ? pose->position.x() : kNan;
+    return pose ? pose->pose.position.x() : kNan;
   };
   EXPECT_EQ(x("door"), 3);
   EXPECT_EQ(x("robot"), 7) << "of which one came, once";
   EXPECT_EQ(x("person"), 4);
+}
+
+TEST(Frames, AreEarlyUntilATransformOfTheTimeHasCome) {
+  TfTree tf;
+  tf2_msgs::TFMessage at = Frame("world", "plate", 1);
+  at.transforms[0].header.stamp = ros::Time(2);
+  ASSERT_FALSE(tf.Add(at, false));
+  ASSERT_FALSE(tf.Add(Frame("world", "wall", 4), true));
+  const auto find = [&](const char* frame, double secs) {
+    return tf.Find("world", frame, static_cast<std::int64_t>(secs * 1e9)).value();
+  };
+  EXPECT_TRUE(find("plate", 3).is_early);
+  EXPECT_EQ(find("plate", 3).pose.position.x(), 1);
+  EXPECT_FALSE(find("plate", 1).is_early) << "older than all that is kept";
+  EXPECT_FALSE(find("plate", 0).is_early) << "the newest was asked for";
+  EXPECT_FALSE(find("wall", 3).is_early) << "it always holds";
+  at = Frame("world", "plate", 5);
+  at.transforms[0].header.stamp = ros::Time(4);
+  ASSERT_FALSE(tf.Add(at, false));
+  EXPECT_FALSE(find("plate", 3).is_early);
+  EXPECT_EQ(find("plate", 3).pose.position.x(), 3);
 }
 
 // A sender whose clock is late, of many frames: none of the others is forgotten.
@@ -337,7 +358,7 @@ TEST(Frames, OfOthersStayWhenOneIsLate) {
   tf.Add(late, false);
   const auto robot = tf.Find("world", "robot", 100'000'000'000);
   ASSERT_TRUE(robot);
-  EXPECT_EQ(robot->position.x(), 7);
+  EXPECT_EQ(robot->pose.position.x(), 7);
 }
 
 // As of a simulator that pauses: tf2 refused each, with a line in the log, and after twenty of them

@@ -204,12 +204,12 @@ TEST(TopicsHeardFor, AreThoseBesideAnImageThatItNeeds) {
 }
 
 // Its camera is at x = 1 at the time 5 s, and at x = 2 now.
-std::optional<urdf::Pose> MovingEye(const std::string& frame, std::int64_t stamp_nanos) {
+std::optional<FramePlace> MovingEye(const std::string& frame, std::int64_t stamp_nanos) {
   if (frame != "eye") return std::nullopt;
   if (stamp_nanos != 0 && stamp_nanos != 5'000'000'000) return std::nullopt;
   urdf::Pose pose;
   pose.position.x() = stamp_nanos == 0 ? 2 : 1;
-  return pose;
+  return FramePlace{pose};
 }
 
 CameraImage TakenAt(std::int64_t stamp_nanos) {
@@ -241,6 +241,23 @@ TEST(ImageBox, PlacesTheCameraAtTheTimeOfItsImage) {
   box.Update(60'000'000, MovingEye);
   EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 2);
   EXPECT_THAT(box.TakeLost(), IsEmpty());
+}
+
+TEST(ImageBox, PlacesTheCameraAgainOnceItsTimeIsKnown) {
+  ImageBox box;
+  EXPECT_FALSE(box.Put(3, TakenAt(5'000'000'000), {0.5}));
+  box.PutCalibration(3, *ToCalibration(SomeCalibration()));
+  FramePlace eye;
+  const auto find = [&](const std::string&, std::int64_t) { return std::make_optional(eye); };
+  eye.is_early = true;
+  box.Update(20'000'000, find);
+  ASSERT_TRUE(box.images()[0]->camera);
+  eye = {{{7, 0, 0}, Eigen::Quaterniond::Identity()}, false};
+  box.Update(40'000'000, find);
+  EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 7);
+  eye.pose.position.x() = 8;
+  box.Update(60'000'000, find);
+  EXPECT_EQ(box.images()[0]->camera->world_from_optical.position.x(), 7) << "at its own time";
 }
 
 TEST(ImageBox, NeedsNoCameraForAnImageWithoutTheScene) {

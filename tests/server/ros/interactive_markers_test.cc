@@ -88,9 +88,9 @@ class InteractiveMarkersTest : public ::testing::Test {
       const auto unshown = store_.Apply(0, marker, 0);
       EXPECT_FALSE(unshown) << unshown->text;
     }
-    const auto find = [](const std::string& frame, std::int64_t) -> std::optional<urdf::Pose> {
+    const auto find = [](const std::string& frame, std::int64_t) -> std::optional<FramePlace> {
       if (frame != "cart" && frame != "tool") return std::nullopt;
-      return urdf::Pose{Vector3d(0, frame == "cart" ? 5 : 7, 0), Eigen::Quaterniond::Identity()};
+      return FramePlace{{Vector3d(0, frame == "cart" ? 5 : 7, 0), Eigen::Quaterniond::Identity()}};
     };
     static_cast<void>(store_.Update(0, find));
     newest_ = out;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/system/clocks.h"
 
@@ -42,12 +44,14 @@ Marker Of(int type) {
 // A graph with one frame, a cart at x metres; where it is not known, nothing is.
 struct Cart {
   std::optional<double> x = 1;
+  std::int64_t newest_nanos = std::numeric_limits<std::int64_t>::max();  // of its transforms
   mutable std::vector<std::int64_t> asked;
   MarkerStore::FindFrame Find() const {
-    return [this](const std::string& frame, std::int64_t stamp) -> std::optional<urdf::Pose> {
+    return [this](const std::string& frame, std::int64_t stamp) -> std::optional<FramePlace> {
       asked.push_back(stamp);
       if (frame != "cart" || !x) return std::nullopt;
-      return urdf::Pose{{*x, 0, 0}, Eigen::Quaterniond::Identity()};
+      const urdf::Pose pose{{*x, 0, 0}, Eigen::Quaterniond::Identity()};
+      return FramePlace{pose, stamp > newest_nanos};
     };
   }
 };
@@ -67,6 +71,38 @@ TEST(MarkerInput, ReadsEveryTypeWithItsRelevantFields) {
                             (type >= Marker::LINE_STRIP && type <= Marker::POINTS);
     EXPECT_EQ(!marker->points.empty(), has_points) << type;
   }
+}
+
+TEST(MarkerInput, TakesWhatRvizDraws) {
+  Marker cube = Cube(1);
+  cube.color.r = 255;
+  cube.color.b = -1;
+  cube.scale.x = -0.5;
+  cube.scale.z = 0;
+  const auto marker = ToSceneMarker(cube);
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(marker->color, Eigen::Vector4d(1, 0, 0, 1));
+  EXPECT_EQ(marker->scale.x(), 0.5);
+  EXPECT_NEAR(marker->scale.z(), 0, 1e-4) << "flat";
+  Marker arrow = Of(Marker::ARROW);
+  arrow.points.clear();
+  arrow.scale.x = -2;
+  const auto back = ToSceneMarker(arrow);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->scale.x(), 2);
+  EXPECT_NEAR((back->pose.orientation * Eigen::Vector3d::UnitX()).x(), -1, 1e-12);
+  arrow = Of(Marker::ARROW);
+  arrow.scale.y = arrow.scale.z = 0;
+  EXPECT_TRUE(ToSceneMarker(arrow)) << "without a head";
+  Marker text = Of(Marker::TEXT_VIEW_FACING);
+  text.text.clear();
+  for (std::size_t i = 0; i < kMaxMarkerText; ++i) text.text += "\u00b5";
+  const auto shortened = ToSceneMarker(text);
+  ASSERT_TRUE(shortened);
+  EXPECT_LE(shortened->text.size(), kMaxMarkerText);
+  EXPECT_EQ(shortened->text.substr(shortened->text.size() - 5), "\u00b5\u2026");
+  cube.scale.x = cube.scale.y = 0;
+  EXPECT_FALSE(ToSceneMarker(cube));
 }
 
 TEST(MarkerInput, TreatsAnUnsetOrientationAsIdentity) {
@@ -136,6 +172,7 @@ TEST(MarkerStore, HasGridsInTheirFrameOrThatOfTheScene) {
   ASSERT_TRUE(lenient.Update(0, cart.Find()));
   EXPECT_EQ(X(lenient), 0);
   EXPECT_EQ(lenient.markers()[0]->ns, kNamespaceOfGrids);
+  EXPECT_TRUE(lenient.markers()[0]->is_in_pixels) << "as RViz's style Lines";
   cart.x = 3;
   ASSERT_TRUE(strict.Update(1'000'000'000, cart.Find()));
   ASSERT_TRUE(lenient.Update(1'000'000'000, cart.Find()));
@@ -212,6 +249,78 @@ TEST(MarkerStore, MovesOnlyLockedMarkersWithTheirFrame) {
   EXPECT_FALSE(store.Update(0, cart.Find())) << "nothing has moved";
 }
 
+// A scan comes before the transform of its time.
+TEST(MarkerStore, PlacesAMarkerAgainUntilItsTimeIsKnown) {
+  MarkerStore store;
+  Cart cart;
+  cart.newest_nanos = 4 * kNanosPerSecond;
+  Marker scan = Cube(1);
+  scan.header.stamp = ros::Time(5);
+  const auto update = [&](int millis) {
+    return store.Update(millis * kNanosPerMilli, cart.Find());
+  };
+  EXPECT_FALSE(store.Apply(0, scan, 0));
+  EXPECT_FALSE(update(0)) << "it may come soon";
+  EXPECT_FALSE(update(499));
+  ASSERT_TRUE(update(501));
+  EXPECT_DOUBLE_EQ(X(store), 1) << "by the newest transform, for now";
+  cart.x = 4;
+  ASSERT_TRUE(update(502));
+  EXPECT_DOUBLE_EQ(X(store), 4);
+  cart.newest_nanos = 6 * kNanosPerSecond;
+  cart.x = 3;
+  ASSERT_TRUE(update(503));
+  EXPECT_DOUBLE_EQ(X(store), 3) << "at its own time";
+  cart.x = 9;
+  EXPECT_FALSE(update(504)) << "for good";
+  scan.header.stamp = ros::Time(7);
+  EXPECT_FALSE(store.Apply(0, scan, 600 * kNanosPerMilli));
+  EXPECT_FALSE(update(600));
+  EXPECT_DOUBLE_EQ(X(store), 3) << "the one before stays";
+  cart.newest_nanos = 8 * kNanosPerSecond;
+  ASSERT_TRUE(update(700));
+  EXPECT_DOUBLE_EQ(X(store), 9);
+}
+
+// Of a sender whose clock is ahead.
+TEST(MarkerStore, DoesNotWaitForATimeThatDoesNotCome) {
+  MarkerStore store;
+  Cart cart;
+  cart.newest_nanos = 4 * kNanosPerSecond;
+  Marker scan = Cube(1);
+  for (int millis = 0; millis < 2000; millis += 100) {
+    scan.header.stamp = ros::Time(1000, static_cast<std::uint32_t>(millis));
+    EXPECT_FALSE(store.Apply(0, scan, millis * kNanosPerMilli));
+    cart.x = millis;
+    static_cast<void>(store.Update(millis * kNanosPerMilli, cart.Find()));
+    EXPECT_EQ(store.markers().empty(), millis < 500) << millis;
+    if (millis >= 500) EXPECT_DOUBLE_EQ(X(store), millis);
+  }
+  cart.x = 9;
+  EXPECT_FALSE(store.Update(13 * kNanosPerSecond, cart.Find())) << "ten seconds are enough";
+}
+
+TEST(MarkerStore, LeavesOutPointsThatAreNotFiniteAndSaysHowMany) {
+  MarkerStore store;
+  const Cart cart;
+  Marker lines = Of(Marker::LINE_LIST);
+  lines.points[3].y = std::nan("");
+  const auto said = store.Apply(0, lines, 0);
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->text,
+            "marker walls/5: points that are not finite, or are beyond 100 km, are left out: 2 of "
+            "6");
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  const auto& points = store.markers().at(0)->points;
+  ASSERT_EQ(points.size(), 4u) << "with the other end of its line";
+  EXPECT_EQ(points[2].x(), 4);
+  EXPECT_EQ(store.markers()[0]->colors.size(), 4u);
+  for (geometry_msgs::Point& point : lines.points) point.x = 1e9;
+  const auto refused = store.Apply(0, lines, 0);
+  ASSERT_TRUE(refused);
+  EXPECT_STREQ(refused->kind, "its points");
+}
+
 TEST(MarkerStore, ColoursPointsByTheirPlaceInTheScene) {
   MarkerStore store;
   Marker points = Of(Marker::POINTS);
@@ -229,7 +338,9 @@ TEST(MarkerStore, ColoursPointsByTheirPlaceInTheScene) {
   urdf::Pose cart{
       {0, 0, 0},
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ())};
-  const auto find = [&](const std::string&, std::int64_t) { return std::optional(cart); };
+  const auto find = [&](const std::string&, std::int64_t) {
+    return std::make_optional(FramePlace{cart});
+  };
   ASSERT_TRUE(store.Update(0, find));
   const auto& colors = store.markers().at(0)->colors;
   ASSERT_EQ(colors.size(), 6u);

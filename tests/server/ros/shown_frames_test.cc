@@ -85,8 +85,8 @@ TEST_F(ShownFramesTest, AreAxesANameAndAnArrowToTheParent) {
   EXPECT_DOUBLE_EQ(radius, 0.02);
   EXPECT_THAT(Names(), ElementsAre("cart", "world"));
   const SceneMarker& name = *frames_->markers()[3];
-  EXPECT_NEAR(name.scale.z(), 0.04, 1e-12);
-  EXPECT_TRUE(name.pose.position.isApprox(Vector3d(2, 0, -0.02))) << "below its frame";
+  EXPECT_NEAR(name.scale.z(), 0.064, 1e-12);
+  EXPECT_TRUE(name.pose.position.isApprox(Vector3d(2, 0, -0.032))) << "below its frame";
 }
 
 TEST_F(ShownFramesTest, AreWhatTheStyleHasOfThem) {

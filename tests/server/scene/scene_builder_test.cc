@@ -180,14 +180,14 @@ TEST(SceneBuilder, HasRobotsThatMoveWhereTheyAreInEachState) {
 
 TEST(SceneBuilder, HasTheFrameThatTheCameraGoesWith) {
   SceneOptions options;
-  options.camera_frame = "skeleton_head";
+  options.camera_frame.at = "skeleton_head";
   Built of_person(options);
   of_person.builder.OnSample(SampleOf("lift", 0));
   const SceneState& state = of_person.last();
   ASSERT_EQ(state.people.at(0).model->human.model_name, "skeleton");
   EXPECT_EQ(state.camera_base.value().position,
             state.people[0].links[urdf::At(urdf::kHead)].position);
-  options.camera_frame = "cart";
+  options.camera_frame.at = "cart";
   Built of_tf(options);
   of_tf.builder.OnSample(SampleOf("lift", 0));
   EXPECT_FALSE(of_tf.last().camera_base);
@@ -200,9 +200,24 @@ TEST(SceneBuilder, HasTheFrameThatTheCameraGoesWith) {
   EXPECT_EQ(of_tf.last().camera_base.value().position, Vector3d(4, 5, 6));
 }
 
+TEST(SceneBuilder, TurnsTheCameraThatGoesWithAPersonAsItsAxesAre) {
+  SceneOptions options;
+  options.camera_frame = {"skeleton_head", "lab"};
+  Built built(options);
+  built.builder.OnSample(SampleOf("lift", 0));
+  EXPECT_TRUE(
+      built.last().camera_base.value().orientation.isApprox(Eigen::Quaterniond::Identity()));
+  const Eigen::Quaterniond turn(0, 0, 0, 1);
+  built.builder.SetCameraBase({Vector3d(4, 5, 6), turn});
+  built.builder.OnSample(SampleOf("lift", 1));
+  const SceneState& state = built.last();
+  EXPECT_TRUE(state.camera_base.value().orientation.isApprox(turn));
+  EXPECT_EQ(state.camera_base->position, state.people[0].links[urdf::At(urdf::kHead)].position);
+}
+
 TEST(SceneBuilder, SaysOnceThatTheFrameOfTheCameraDoesNotCome) {
   SceneOptions options;
-  options.camera_frame = "moon";
+  options.camera_frame.at = "moon";
   const kinescope::testing::CapturedLog log;
   for (int i = 0; i < 2; ++i) {
     Built built(options);

@@ -60,6 +60,22 @@ TEST_F(GoldenCaseFile, RejectsATimeThatTheBuiltInSubjectReachesTooLate) {
   }
 }
 
+TEST_F(GoldenCaseFile, HasTheViewOfAnRvizFileBesideIt) {
+  std::ofstream(folder_ / "lab.rviz")
+      << "Visualization Manager:\n  Global Options: {Background Color: 10; 20; 30}\n"
+         "  Displays: [{Class: rviz/Path, Enabled: true, Topic: /plan}]\n"
+         "  Views: {Current: {Class: rviz/Orbit, Distance: 4}}\n";
+  std::ofstream(folder_ / "walk.bag") << "#ROSBAG V2.0\n";
+  const GoldenCase golden_case = Load("source: walk.bag\nrviz: lab.rviz\nfov: 50\nsize: 16x16\n");
+  EXPECT_EQ(*golden_case.rviz, folder_ / "lab.rviz");
+  EXPECT_EQ(golden_case.view.background.ToText(), "#0a141e");
+  EXPECT_EQ(golden_case.view.marker_topics->at(0).name, "/plan");
+  EXPECT_TRUE(golden_case.view.camera->front().place);
+  EXPECT_EQ(golden_case.view.moves.fov.ToText(), "50") << "the case has its own";
+  EXPECT_EQ(golden_case.given.count("camera"), 0u) << "the file may change";
+  EXPECT_THAT(Complaint("source: walk.bag\nrviz: other.rviz\n"), HasSubstr("other.rviz"));
+}
+
 TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nsize: 16x16\ntime: 0.05\nwrenches: forces.csv\n");

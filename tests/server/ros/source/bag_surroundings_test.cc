@@ -237,6 +237,20 @@ TEST_F(BagWithoutPeople, ShowsRobotsAndMarkersInTheRootOfItsFrames) {
   EXPECT_EQ(moments.markers[2], 7);
 }
 
+TEST_F(BagWithoutPeople, ShowsFramesAloneIfTheyAreNamed) {
+  const std::string path =
+      Write([](rosbag::Bag& bag) { bag.write("/tf", TimeOf(kBegin), FrameAt("base", 1, kBegin)); });
+  GraphView view;
+  view.needs_person = false;
+  EXPECT_THAT(RefusalOf(path, view), HasSubstr("no person"));
+  ShownTopic all{kEveryFrame};
+  all.is_frame = true;
+  view.topics = {all};
+  EXPECT_EQ(Read(path, view).stamps.size(), 1u);
+  view.topics[0].name = "base";
+  EXPECT_EQ(Read(path, view).stamps.size(), 1u);
+}
+
 TEST_F(BagWithoutPeople, NeedsNoTransforms) {
   const std::string path = Write([](rosbag::Bag& bag) {
     bag.write("/walls", TimeOf(kBegin), CubeIn("laser", 1, 3));
@@ -697,9 +711,40 @@ TEST_F(BagSurroundingsTest, FollowTheirFrames) {
   EXPECT_EQ(recorded.markers[5][0]->pose.position, Eigen::Vector3d(2.5, 0, 0));
 }
 
+// A scan that is recorded before the transforms of its time.
+TEST_F(BagSurroundingsTest, ThatComeBeforeTheirTransformsWaitForThem) {
+  const Recorded recorded = Read([](rosbag::Bag& bag) {
+    bag.write("/tf", TimeOf(kBegin - 2), FrameAt("cart", 1, kBegin - 2));
+    Marker scan = CubeIn("cart", 1);
+    scan.header.stamp = TimeOf(kBegin + 2 * kStep);
+    bag.write("/scan", TimeOf(kBegin - 1), scan);
+    bag.write("/tf", TimeOf(kBegin + 4 * kStep - 1), FrameAt("cart", 5, kBegin + 4 * kStep - 2));
+  });
+  ASSERT_THAT(CountsOf(recorded), ElementsAre(0, 0, 0, 0, 1, 1));
+  EXPECT_NEAR(recorded.markers[5][0]->pose.position.x(), 3, 0.01) << "halfway, as it was";
+}
+
+TEST_F(BagSurroundingsTest, HaveTheAxesThatTheCameraGoesWith) {
+  GraphView view;
+  view.camera_frame = {"cart", "lab"};
+  const Recorded recorded = Read(
+      [](rosbag::Bag& bag) {
+        bag.write("/tf", TimeOf(kBegin - 1), FrameAt("cart", 1, kBegin - 1));
+        tf2_msgs::TFMessage lab = FrameAt("lab", 9, kBegin + 3 * kStep - 1);
+        lab.transforms[0].transform.rotation.w = 0;
+        lab.transforms[0].transform.rotation.z = 1;
+        bag.write("/tf", TimeOf(kBegin + 3 * kStep - 1), lab);
+      },
+      view);
+  ASSERT_EQ(recorded.camera_bases.size(), 6u);
+  EXPECT_EQ(recorded.camera_bases[0].value().orientation.w(), 1) << "as the scene, for now";
+  EXPECT_EQ(recorded.camera_bases[5].value().orientation.z(), 1);
+  EXPECT_EQ(recorded.camera_bases[5].value().position, Eigen::Vector3d(1, 0, 0));
+}
+
 TEST_F(BagSurroundingsTest, HaveTheFrameThatTheCameraGoesWith) {
   GraphView view;
-  view.camera_frame = "cart";
+  view.camera_frame.at = "cart";
   const Recorded recorded = Read(
       [](rosbag::Bag& bag) {
         bag.write("/tf", TimeOf(kBegin + kStep - 1), FrameAt("cart", 1, kBegin + kStep - 1));
@@ -725,7 +770,8 @@ TEST_F(BagSurroundingsTest, InAFrameThatIsNotThereAreNamedOnce) {
   EXPECT_THAT(log.text(), HasSubstr("marker walls/1: frame 'moon' is not known yet"));
 }
 
-TEST_F(BagSurroundingsTest, ThatCannotBeDrawnAreCountedByReason) {
+TEST_F(BagSurroundingsTest, ThatCannotBeDrawnAreCountedByReasonAndNamed) {
+  const CapturedLog log;
   const Recorded recorded = Read([](rosbag::Bag& bag) {
     Marker flat = CubeIn("world", 1), unknown = CubeIn("world", 2);
     flat.scale.x = std::numeric_limits<double>::quiet_NaN();
@@ -736,7 +782,10 @@ TEST_F(BagSurroundingsTest, ThatCannotBeDrawnAreCountedByReason) {
   });
   EXPECT_THAT(CountsOf(recorded), ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_THAT(recorded.counters.rejected,
-              ElementsAre(Pair("marker: its scale", 1), Pair("marker: unknown action", 1)));
+              ElementsAre(Pair("visualization_msgs/Marker: its scale", 1),
+                          Pair("visualization_msgs/Marker: unknown action", 1)));
+  EXPECT_THAT(log.text(), HasSubstr("/walls: not shown: marker walls/1: its scale is not finite"));
+  EXPECT_THAT(log.text(), HasSubstr("/walls: not shown: marker walls/2: action 17"));
 }
 
 TEST_F(BagSurroundingsTest, OfKinescopeAreDrawnByTheSceneItself) {

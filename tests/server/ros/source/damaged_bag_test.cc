@@ -16,6 +16,7 @@
 #include "core/system/errors.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/transforms.h"
+#include "tests/captured_log.h"
 #include "tests/fuzz/invariants.h"
 #include "tests/heap_in_use.h"
 #include "tests/recording_sink.h"
@@ -176,6 +177,23 @@ TEST_P(DamagedBagTest, IsReadUpToTheDamageOrRejectedInOneLine) {
   }
   EXPECT_GT(read, 50) << "most damages cost some messages, not the bag";
   EXPECT_GT(samples, 50 * kSamples);
+}
+
+// Of the first chunk, with the records of all connections. The index has them again.
+TEST_P(DamagedBagTest, WithoutItsFirstChunkHasThePeopleOfTheOthers) {
+  std::string bytes = WholeBag();
+  const std::size_t topic = bytes.find("compression=");
+  ASSERT_NE(topic, std::string::npos);
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(topic) + 40, 200, '\xff');
+  const std::string path = folder_ / "damaged.bag";
+  std::ofstream(path, std::ios::binary) << bytes;
+  CheckingSink sink;
+  const kinescope::testing::CapturedLog log;
+  const auto source = OpenBag(path);
+  while (source->Poll({}, sink) != Source::State::kEnded) {
+  }
+  EXPECT_GE(sink.samples, kSamples / 2);
+  EXPECT_THAT(log.text(), HasSubstr("left out"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Compressions, DamagedBagTest,
