@@ -17,12 +17,6 @@ constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a count
 bool IsSingle(const std::string& md5sum) { return Is<visualization_msgs::Marker>(md5sum); }
 bool IsArray(const std::string& md5sum) { return Is<visualization_msgs::MarkerArray>(md5sum); }
 
-std::string Said(const MarkerDecoder::Event& event, const char* key) {
-  const ros::M_string& connection = event.getConnectionHeader();
-  const auto found = connection.find(key);
-  return found == connection.end() ? std::string() : found->second;
-}
-
 // Whether the newest message of the topic is all that is shown of it. Updates of a map belong to
 // the map before them.
 bool ReplacesThoseBefore(const std::string& md5sum, const ShownStyle& style, bool has_colors) {

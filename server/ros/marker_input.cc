@@ -20,121 +20,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-bool HasPoints(MarkerType type) {
-  switch (type) {
-    case MarkerType::kArrow:
-    case MarkerType::kLineStrip:
-    case MarkerType::kLineList:
-    case MarkerType::kCubeList:
-    case MarkerType::kSphereList:
-    case MarkerType::kPoints:
-    case MarkerType::kTriangleList: return true;
-    default: return false;
-  }
-}
-
-template <class RosVector>
-Eigen::Vector3d FromMarker(const RosVector& v) {
-  return {v.x, v.y, v.z};
-}
-
-Eigen::Vector4d FromMarker(const std_msgs::ColorRGBA& c) { return {c.r, c.g, c.b, c.a}; }
-
-Eigen::Quaterniond FromMarker(const geometry_msgs::Quaternion& q) {
-  const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
-  const double norm = turn.norm();
-  // A message without an orientation is the most frequent one.
-  if (norm == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(turn.coeffs() / norm);  // non-finite values are detected later
-}
-
-tl::unexpected<Refusal> NoMarker(const char* kind, const Marker& message, const std::string& why) {
-  return tl::unexpected(Refusal{
-      kind,
-      fmt::format("marker {}/{}: {}", message.ns.substr(0, kLongestMarkerName), message.id, why)});
-}
-
-// Checked before anything is copied.
-std::optional<std::string> FindExcess(const Marker& message) {
-  if (message.points.size() > kMaxMarkerPoints || message.colors.size() > kMaxMarkerPoints) {
-    return fmt::format("{} points and {} colors: expected at most {}", message.points.size(),
-                       message.colors.size(), kMaxMarkerPoints);
-  }
-  if (message.ns.size() > kLongestMarkerName ||
-      message.header.frame_id.size() > kLongestMarkerName) {
-    return fmt::format("name of the namespace or frame longer than {} bytes", kLongestMarkerName);
-  }
-  constexpr std::size_t kLongestUri = 4096;
-  if (message.mesh_resource.size() > kLongestUri) {
-    return fmt::format("mesh name of {} bytes: expected at most {}", message.mesh_resource.size(),
-                       kLongestUri);
-  }
-  return std::nullopt;
-}
-
-Eigen::Vector4d Clamped(const Eigen::Vector4d& color) {
-  return color.allFinite() ? Eigen::Vector4d(color.cwiseMax(0).cwiseMin(1)) : color;
-}
-
-bool IsNear(const Eigen::Vector3d& point) {
-  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
-}
-
-// As many points belong together.
-std::size_t PointsOfOne(MarkerType type) {
-  return type == MarkerType::kLineList ? 2 : type == MarkerType::kTriangleList ? 3 : 1;
-}
-
-// What has one goes, with its colours: a line, a triangle, one of many cubes.
-void DropFarPoints(SceneMarker& marker) {
-  const std::size_t together = PointsOfOne(marker.type), count = marker.points.size();
-  const bool has_colors = marker.colors.size() == count;
-  if (marker.type == MarkerType::kArrow || count % together != 0) return;
-  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; i += together) {
-    const auto first = marker.points.begin() + at(i);
-    if (!std::all_of(first, first + at(together), IsNear)) continue;
-    for (std::size_t k = i; k < i + together; ++k, ++kept) {
-      marker.points[kept] = marker.points[k];
-      if (has_colors) marker.colors[kept] = marker.colors[k];
-    }
-  }
-  marker.points.resize(kept);
-  if (has_colors) marker.colors.resize(kept);
-}
-
-// RViz takes a size below 0 for one above, except of an arrow, which points the other way, and
-// draws what is flat.
-void MakeSolid(SceneMarker& marker) {
-  constexpr double kFlat = 1e-5;  // m
-  switch (marker.type) {
-    case MarkerType::kMesh:
-    case MarkerType::kTriangleList:
-    case MarkerType::kText: return;
-    case MarkerType::kArrow:
-      if (!marker.points.empty() || !(marker.scale.x() < 0)) break;
-      marker.pose.orientation =
-          marker.pose.orientation * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
-      break;
-    default: break;
-  }
-  marker.scale = marker.scale.cwiseAbs();
-  const bool has_volume = marker.type == MarkerType::kCube || marker.type == MarkerType::kSphere ||
-                          marker.type == MarkerType::kCylinder ||
-                          marker.type == MarkerType::kCubeList;
-  if (has_volume && marker.scale.maxCoeff() > 0) marker.scale = marker.scale.cwiseMax(kFlat);
-}
-
-// @return at most `most` bytes, with an ellipsis if something is left out
-std::string Shortened(const std::string& text, std::size_t most) {
-  constexpr char kEllipsis[] = "\u2026";
-  if (text.size() <= most) return text;
-  std::size_t end = most - (sizeof kEllipsis - 1);
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + kEllipsis;
-}
-
 bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
   return a.type == b.type && a.pose.position == b.pose.position &&
          a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
@@ -157,7 +42,7 @@ void ColourByPlace(SceneMarker& points, const ShownStyle& style) {
     values.push_back((points.pose.position + points.pose.orientation * point)[axis]);
   }
   points.colors.clear();
-  for (const auto& color : ColorsOf(values, style)) points.colors.push_back(FromMarker(color));
+  for (const auto& color : ColorsOf(values, style)) points.colors.push_back(ColorOf(color));
 }
 
 bool IsLeftOut(const Marker& message, const ShownStyle& style) {
@@ -166,38 +51,6 @@ bool IsLeftOut(const Marker& message, const ShownStyle& style) {
 }
 
 }  // namespace
-
-Taken<SceneMarker> ToSceneMarker(const Marker& message) {
-  if (const auto excess = FindExcess(message)) return NoMarker("too large", message, *excess);
-  SceneMarker marker;
-  marker.ns = message.ns;
-  marker.id = message.id;
-  marker.type = static_cast<MarkerType>(message.type);
-  marker.pose = {FromMarker(message.pose.position), FromMarker(message.pose.orientation)};
-  marker.scale = FromMarker(message.scale);
-  marker.color = Clamped(FromMarker(message.color));
-  if (HasPoints(marker.type)) {
-    for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
-    if (marker.type != MarkerType::kArrow) {
-      // As in RViz, triangles may have one color each.
-      const bool has_face_colors = marker.type == MarkerType::kTriangleList &&
-                                   3 * message.colors.size() == message.points.size();
-      for (const auto& color : message.colors) {
-        marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1,
-                             Clamped(FromMarker(color)));
-      }
-    }
-    DropFarPoints(marker);
-  }
-  if (marker.type == MarkerType::kText) marker.text = Shortened(message.text, kMaxMarkerText);
-  if (marker.type == MarkerType::kMesh) {
-    marker.mesh_uri = message.mesh_resource;
-    marker.mesh_has_own_colors = message.mesh_use_embedded_materials != 0;
-  }
-  MakeSolid(marker);
-  if (const auto defect = FindDefect(marker)) return NoMarker(defect->kind, message, defect->text);
-  return marker;
-}
 
 std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
                                           std::int64_t monotonic_nanos, const ShownStyle& style) {
@@ -221,28 +74,23 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
     return std::nullopt;
   }
   if (message.action != Marker::ADD) {
-    return NoMarker(
-               "unknown action", message,
-               fmt::format("action {}: expected 0 (add or modify), 2 (delete) or 3 (delete all)",
-                           message.action))
-        .value();
+    return RefusalOf(
+        "unknown action", message,
+        fmt::format("action {}: expected 0 (add or modify), 2 (delete) or 3 (delete all)",
+                    message.action));
   }
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
-  const bool has_pixels =
-      shape->type == MarkerType::kPoints || shape->type == MarkerType::kLineList;
-  if (style.size_px && has_pixels) SizeInPixels(*shape, *style.size_px);
+  if (style.size_px && shape->type == MarkerType::kPoints) SizeInPixels(*shape, *style.size_px);
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMaxMarkers) {
-    return NoMarker("too many", message,
-                    fmt::format("the limit of {} markers is reached", kMaxMarkers))
-        .value();
+    return RefusalOf("too many", message,
+                     fmt::format("the limit of {} markers is reached", kMaxMarkers));
   }
   if (points_ - freed + shape->points.size() > kMaxPointsOfAll) {
-    return NoMarker(
-               "too many", message,
-               fmt::format("all markers together would have more than {} points", kMaxPointsOfAll))
-        .value();
+    return RefusalOf(
+        "too many", message,
+        fmt::format("all markers together would have more than {} points", kMaxPointsOfAll));
   }
   points_ = points_ - freed + shape->points.size();
   Entry& entry = entries_[key];
@@ -267,11 +115,10 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const std::size_t sent = HasPoints(type) ? message.points.size() : 0;
   const std::size_t left = entry.shape->points.size();
   if (left == sent || !HasPoints(type)) return std::nullopt;
-  Refusal some = NoMarker("some of its points", message,
-                          fmt::format("points that are not finite, or are beyond 100 km, are left "
-                                      "out: {} of {}",
-                                      sent - left, sent))
-                     .value();
+  Refusal some = RefusalOf("some of its points", message,
+                           fmt::format("points that are not finite, or are beyond 100 km, are left "
+                                       "out: {} of {}",
+                                       sent - left, sent));
   some.is_partial = true;
   return some;
 }
@@ -389,12 +236,15 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
 void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
   const Marker lines =
       frame.is_grid ? GridMarker(frame.name, frame.style) : AxesMarker(frame.name, frame.style);
-  ShownStyle style;
-  if (frame.is_grid && !frame.style.width_m) style.size_px = 1;  // as RViz's style Lines
-  if (const auto refusal = Apply(topic, lines, 0, style)) {
+  if (const auto refusal = Apply(topic, lines, 0)) {
     throw UsageError("--marker_topics: " + refusal->text);
   }
   Entry& entry = entries_.at(Key{topic, lines.ns, lines.id});
+  if (frame.is_grid && !frame.style.width_m) {  // as RViz's style Lines
+    auto thin = std::make_shared<SceneMarker>(*entry.shape);
+    SizeInPixels(*thin, 1);
+    entry.shape = std::move(thin);
+  }
   entry.is_of_frame = true;
   entry.stands_in_scene = frame.style.stands_in_scene;
   entry.is_told_missing = frame.style.is_told_missing;

@@ -18,16 +18,12 @@
 #include "core/graph_view.h"
 #include "core/scene_marker.h"
 #include "server/ros/force_input.h"
+#include "server/ros/marker_message.h"
 
 namespace kinescope::ros_bridge {
 
 inline constexpr std::size_t kMaxMarkers = 4096;           // of all topics
 inline constexpr std::size_t kMaxPointsOfAll = 1'000'000;  // of all markers
-inline constexpr std::size_t kLongestMarkerName = 256;     // bytes, of a frame or a namespace
-
-/// The shape only, in the frame of the message. A quaternion of zeros is no rotation; any other is
-/// normalised. Points, colours and texts are dropped for types that do not use them.
-Taken<SceneMarker> ToSceneMarker(const visualization_msgs::Marker& message);
 
 class MarkerStore {
  public:

@@ -464,15 +464,23 @@ ros::Subscriber MasterRegistration::SubscribeMarks() {
   return node_->subscribe(options);
 }
 
+// Of any type: roscpp drops a publisher of another one without a word, and it tries again and
+// again.
 ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool is_static) {
-  using Event = ros::MessageEvent<const BoundedMessage<tf2_msgs::TFMessage>>;
+  constexpr std::size_t kLongestTypeName = 80;  // bytes
   ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(
-      topic, kSampleQueue, [this, topic, is_static](const Event& event) {
-        const BoundedMessage<tf2_msgs::TFMessage>& bounded = *event.getConstMessage();
+  options.initByFullCallbackType<const RawEvent&>(
+      topic, kSampleQueue, [this, topic, is_static](const RawEvent& event) {
         if (event.getPublisherName() == ros::this_node::getName()) return;
-        if (!bounded.is_sound) return Refuse(topic, Unreadable());
-        const auto refusal = wiring_.on_transforms(bounded.message, is_static);
+        if (!Is<tf2_msgs::TFMessage>(Said(event, "md5sum"))) {
+          return Refuse(topic,
+                        {"another type", event.getPublisherName() + " sends " +
+                                             Said(event, "type").substr(0, kLongestTypeName) +
+                                             ", not tf2_msgs/TFMessage"});
+        }
+        tf2_msgs::TFMessage message;
+        if (!Decode(event.getConstMessage()->bytes, message)) return Refuse(topic, Unreadable());
+        const auto refusal = wiring_.on_transforms(message, is_static);
         if (refusal) Refuse(topic, *refusal);
       });
   options.callback_queue = wiring_.queue;

@@ -10,6 +10,12 @@ constexpr double kNormTolerance = 1e-3;
 
 }  // namespace
 
+std::string Said(const RawEvent& event, const char* key) {
+  const ros::M_string& connection = event.getConnectionHeader();
+  const auto found = connection.find(key);
+  return found == connection.end() ? std::string() : found->second;
+}
+
 bool Decode(const std::vector<std::uint8_t>& bytes, tf2_msgs::TFMessage& message) {
   return ReadBounded(bytes.data(), bytes.size(), message);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <geometry_msgs/Transform.h>
+#include <ros/message_event.h>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <ros/service_traits.h>
@@ -23,6 +24,11 @@ namespace kinescope::ros_bridge {
 struct RawMessage {
   std::vector<std::uint8_t> bytes;
 };
+
+using RawEvent = ros::MessageEvent<const RawMessage>;
+
+/// What its publisher says of the connection, such as the "type" or the "md5sum"; "": nothing.
+[[nodiscard]] std::string Said(const RawEvent& event, const char* key);
 
 /// Decodes `bytes`; false if the message is truncated or an array size is wrong. `message` keeps
 /// its memory from call to call.

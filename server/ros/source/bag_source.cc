@@ -398,7 +398,7 @@ Source::State BagSource::End() {
         "messages were read",
         name_, messages_.read());
   } else if (const std::string damage = DamageIn(messages_); !damage.empty()) {
-    spdlog::warn("bag '{}': {}", name_, damage);
+    WarnOfBag(name_, damage);
   }
   return State::kEnded;
 }
@@ -410,7 +410,7 @@ void BagSource::WarnOfUnused() const {
     if (surroundings_.HasNamed(defect)) continue;
     kinds.push_back(fmt::format("{}: {}", defect, count));
   }
-  if (!kinds.empty()) spdlog::warn("bag '{}': not used: {}", name_, fmt::join(kinds, ", "));
+  if (!kinds.empty()) WarnOfBag(name_, fmt::format("not used: {}", fmt::join(kinds, ", ")));
 }
 
 void BagSource::Take(const BagMessage& message) {

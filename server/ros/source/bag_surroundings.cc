@@ -318,14 +318,16 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
   if (!lost.empty()) spdlog::warn("bag '{}': {}", bag, lost);
 }
 
-void BagSurroundings::WarnOfProblems(const std::string& bag) const {
+void WarnOfBag(const std::string& bag, const std::string& text) {
   static std::mutex mutex;
   static std::set<std::string> told;  // guarded by mutex
-  const auto warn = [&](const std::string& text) {
-    const std::string line = fmt::format("bag '{}': {}", bag, PrintableLine(text));
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (told.insert(line).second) spdlog::warn("{}", line);
-  };
+  const std::string line = fmt::format("bag '{}': {}", bag, PrintableLine(text));
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (told.insert(line).second) spdlog::warn("{}", line);
+}
+
+void BagSurroundings::WarnOfProblems(const std::string& bag) const {
+  const auto warn = [&](const std::string& text) { WarnOfBag(bag, text); };
   for (const Robot& robot : robots_) {
     const std::string& problem = robot.frames.now()->problem;
     if (!problem.empty()) warn(problem);

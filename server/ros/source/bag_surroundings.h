@@ -29,6 +29,9 @@
 
 namespace kinescope::ros_bridge {
 
+/// Once in a process: a clip reads a bag twice.
+void WarnOfBag(const std::string& bag, const std::string& text);
+
 class BagSurroundings {
  public:
   /// @throws UsageError for a frame whose axes cannot be shown

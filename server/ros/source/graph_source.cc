@@ -189,9 +189,7 @@ class GraphSource : public Source {
       ++counters_.ignored["message published by this node"];
       return;
     }
-    const ros::M_string& connection = event.getConnectionHeader();
-    const auto md5 = connection.find("md5sum");
-    const std::string sum = md5 == connection.end() ? "" : md5->second;
+    const std::string sum = Said(event, "md5sum");
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
       if (index > 0) {
@@ -224,9 +222,8 @@ class GraphSource : public Source {
         OnPerson(event, stamp, now);
       });
     }
-    const auto type = connection.find("type");
-    Reject(index, "is a " + (type == connection.end() ? std::string("message without a type")
-                                                      : type->second.substr(0, kLongestTypeName)));
+    const std::string type = Said(event, "type").substr(0, kLongestTypeName);
+    Reject(index, "is a " + (type.empty() ? "message without a type" : type));
   }
 
   // 0: none, so that of its arrival is taken, later.

@@ -5,6 +5,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
@@ -19,6 +20,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -419,6 +421,58 @@ TEST_F(RosSource, RejectsATopicOfAnotherTypeByName) {
     return SourceAt(page).dump().find("message on /joints that is a sensor_msgs/JointState") !=
            std::string::npos;
   }));
+}
+
+// Of the topic that Kinescope hears for two reasons.
+TEST_F(RosSource, NamesAPublisherOfAnotherTypeOnTf) {
+  const ros::Publisher publisher = node_->advertise<std_msgs::String>("/tf", 10);
+  const auto view = Start("serve ros: --http_port 0 --pictures off __name:=view");
+  const std::string page = WaitForLine(*view, "page at ");
+  EXPECT_TRUE(Spin([&] {
+    publisher.publish(std_msgs::String());
+    return SourceAt(page).dump().find("message on /tf that is a std_msgs/String") !=
+           std::string::npos;
+  })) << SourceAt(page).dump(1);
+}
+
+TEST_F(RosSource, HasPeopleWhoseFramesHangOnDifferentOnesInOne) {
+  const ros::Publisher statics = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 100);
+  tf2_msgs::TFMessage labs;
+  labs.transforms.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    labs.transforms[i].header.frame_id = "world";
+    labs.transforms[i].child_frame_id = i == 0 ? "lab_a" : "lab_b";
+    labs.transforms[i].transform.translation.y = i == 0 ? 2 : -2;
+    labs.transforms[i].transform.rotation.w = 1;
+  }
+  statics.publish(labs);
+  const auto view = Start("serve ros: --http_port 0 --pictures off __name:=view");
+  const std::string page = WaitForLine(*view, "page at ");
+  const auto anna = testing::MakeModel("anna"), ben = testing::MakeModel("ben");
+  const std::int64_t begin = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  std::uint32_t n = 0;
+  const auto y_of = [&](const std::string& name) {
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/state"}).out;
+    for (const auto& person :
+         nlohmann::json::parse(text).value("people", nlohmann::json::array())) {
+      if (person["name"] == name && person["com"].is_array()) return person["com"][1].get<double>();
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  EXPECT_TRUE(Spin([&] {
+    ++n;
+    for (const auto& [model, frame] : {std::pair(anna, "lab_a"), std::pair(ben, "lab_b")}) {
+      tf2_msgs::TFMessage message;
+      const auto person = testing::MakePerson(model, testing::Posture(1e-3 * n), n,
+                                              begin + std::int64_t{n} * 10'000'000);
+      ros_bridge::FillTransforms(person, ros_bridge::PersonNames(model->human), frame,
+                                 ros_bridge::TfShape::kFlat, message);
+      publisher.publish(message);
+    }
+    return std::abs(y_of("anna") - 2) < 0.5 && std::abs(y_of("ben") + 2) < 0.5;
+  })) << y_of("anna")
+      << " " << y_of("ben");
 }
 
 TEST_F(RosSource, RejectsInvalidNamesAndANameInUse) {

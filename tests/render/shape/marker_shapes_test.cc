@@ -1,0 +1,87 @@
+#include "render/shape/marker_shapes.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+
+#include "tests/temp_folder.h"
+
+namespace kinescope::render {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+MarkerShapes ShapesOf(const SceneMarker& marker) {
+  return MarkerReader(100'000).Read({std::make_shared<SceneMarker>(marker)});
+}
+
+// Measured in RViz 1.14: the shaft is as thick as scale.y and scale.z say, the head twice.
+TEST(MarkerShapes, HaveArrowsOfAPoseAsRvizDoes) {
+  SceneMarker arrow;
+  arrow.type = MarkerType::kArrow;
+  arrow.scale = {2, 0.3, 0.1};
+  const MarkerShapes shapes = ShapesOf(arrow);
+  ASSERT_EQ(shapes.boxes.size(), 1u);
+  const Eigen::Vector3f size = shapes.boxes[0].box.sizes();
+  EXPECT_NEAR(size.x(), 2, 1e-5);
+  EXPECT_NEAR(size.y(), 0.6, 0.01);
+  EXPECT_NEAR(size.z(), 0.2, 0.01);
+  float shaft = 0;
+  for (const Eigen::Vector3f& position : shapes.solid.positions) {
+    if (position.x() < 0.1f) shaft = std::max(shaft, position.y());
+  }
+  EXPECT_NEAR(shaft, 0.15, 0.005);
+}
+
+TEST(MarkerShapes, HaveRoundSpheresInAList) {
+  SceneMarker list;
+  list.type = MarkerType::kSphereList;
+  list.scale = {0.4, 2, 3};
+  list.points = {{0, 0, 0}};
+  EXPECT_NEAR(ShapesOf(list).boxes.at(0).box.sizes().maxCoeff(), 0.4, 1e-5) << "as RViz's";
+}
+
+TEST(MarkerShapes, TintTheColoursOfAFile) {
+  const kinescope::testing::TempFolder folder;
+  std::ofstream(folder / "red.mtl") << "newmtl red\nKd 1 0 0\n";
+  std::ofstream(folder / "red.obj")
+      << "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  SceneMarker marker;
+  marker.type = MarkerType::kMesh;
+  marker.mesh_uri = "file://" + (folder / "red.obj").string();
+  marker.mesh_has_own_colors = true;
+  const auto color_with = [&](const Eigen::Vector4d& color) {
+    marker.color = color;
+    const MarkerShapes shapes = ShapesOf(marker);
+    EXPECT_THAT(shapes.problems, IsEmpty());
+    const urdf::Mesh& mesh = shapes.solid.colors.empty() ? shapes.blended : shapes.solid;
+    return mesh.colors.at(0);
+  };
+  EXPECT_TRUE(color_with({0, 0, 0, 0}).isApprox(Eigen::Vector4f(1, 0, 0, 1), 0.01f));
+  EXPECT_TRUE(color_with({0, 0, 1, 1}).isApprox(Eigen::Vector4f(0.5f, 0, 0.5f, 1), 0.01f));
+  // Half of red, then half of blue over it.
+  EXPECT_TRUE(
+      color_with({0, 0, 1, 0.5}).isApprox(Eigen::Vector4f(1.0f / 3, 0, 2.0f / 3, 0.75f), 0.01f));
+}
+
+TEST(MarkerShapes, HaveLinesOfAPixelWithoutTriangles) {
+  SceneMarker lines;
+  lines.ns = "rviz/Grid";
+  lines.type = MarkerType::kLineList;
+  lines.is_in_pixels = true;
+  lines.pose.position = {0, 0, 2};
+  lines.points = {{0, 0, 0}, {1, 0, 0}};
+  const MarkerShapes shapes = ShapesOf(lines);
+  EXPECT_THAT(shapes.solid.triangles, IsEmpty());
+  ASSERT_EQ(shapes.lines.size(), 1u);
+  EXPECT_EQ(shapes.lines[0].name, "rviz/Grid/0");
+  EXPECT_FALSE(shapes.lines[0].is_blended);
+  EXPECT_THAT(shapes.lines[0].positions,
+              ElementsAre(Eigen::Vector3f(0, 0, 2), Eigen::Vector3f(1, 0, 2)));
+}
+
+}  // namespace
+}  // namespace kinescope::render
