@@ -390,11 +390,16 @@ void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& a
   Font& font = page.fonts.regular;
   const auto breaks = std::count(label.text.begin(), label.text.end(), '\n');
   double y = at.y_px + 0.5 * (kCapitalShare - kLine * static_cast<double>(breaks)) * size;
+  std::vector<std::string> texts;
+  double width = 0;
   std::istringstream lines(label.text);
-  for (std::string line; std::getline(lines, line); y += kLine * size) {
-    const std::string text = Shorten(line, font, size, page.width);
-    page.canvas.Text(at.x_px - font.Width(text, size) / 2, y, text, font, size,
-                     {label.color, label.opacity});
+  for (std::string line; std::getline(lines, line);) {
+    texts.push_back(Shorten(line, font, size, page.width));
+    width = std::max(width, font.Width(texts.back(), size));
+  }
+  for (const std::string& text : texts) {  // with one left edge, as in RViz
+    page.canvas.Text(at.x_px - width / 2, y, text, font, size, {label.color, label.opacity});
+    y += kLine * size;
   }
 }
 

@@ -207,8 +207,7 @@ function makeText({ text, height, color, opacity }) {
   pen.font = font;  // resizing a canvas resets its font
   pen.fillStyle = `rgb(${color.map((channel) => Math.round(255 * channel)).join(' ')} / ${opacity})`;
   pen.textBaseline = 'middle';
-  pen.textAlign = 'center';
-  lines.forEach((line, i) => pen.fillText(line, canvas.width / 2, (0.7 + LINE * i) * TEXT_PIXELS));
+  lines.forEach((line, i) => pen.fillText(line, 0, (0.7 + LINE * i) * TEXT_PIXELS));
   const map = new THREE.CanvasTexture(canvas);
   map.colorSpace = THREE.SRGBColorSpace;
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, fog: false }));

@@ -56,7 +56,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
                                           std::int64_t monotonic_nanos, const ShownStyle& style) {
   if (IsLeftOut(message, style)) return std::nullopt;
   const auto erase = [&](auto from, auto to) {
-    for (auto entry = from; entry != to; ++entry) points_ -= entry->second.shape->points.size();
+    for (auto entry = from; entry != to; ++entry) Release(entry->second);
     has_changed_ = has_changed_ || from != to;
     return entries_.erase(from, to);
   };
@@ -94,11 +94,10 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   }
   points_ = points_ - freed + shape->points.size();
   Entry& entry = entries_[key];
+  if (entry.is_new && entry.held_nanos) KeepWaiting(entry);
   // Many nodes publish the same marker again and again; its rendered form can be reused.
   if (!entry.shape || !AreEqual(*entry.shape, *shape)) {
     entry.shape = std::make_shared<const SceneMarker>(*std::move(shape));
-    has_changed_ = has_changed_ || entry.placed;
-    entry.placed = nullptr;
   }
   entry.frame = WithoutSlash(message.header.frame_id);
   entry.axis_style.reset();
@@ -159,17 +158,80 @@ class MarkerStore::FrameCache {
   std::set<std::string> unknown_;
 };
 
-// Until then what was before it stays, as in RViz.
+// Until then what was before it stays, as in RViz. Of a sender that is always ahead, messages do
+// not wait again and again.
 bool MarkerStore::IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos) {
-  constexpr std::int64_t kLongestHold = 500 * kNanosPerMilli;
-  if (!place.is_early) entry.waits_in_vain = false;
-  if (!place.is_early || !entry.is_new || entry.waits_in_vain) {
+  constexpr std::int64_t kLongestHold = 500 * kNanosPerMilli, kDoesNotHold = 10 * kNanosPerSecond;
+  const bool is_in_vain = entry.gave_up_nanos && now_nanos >= *entry.gave_up_nanos &&
+                          now_nanos - *entry.gave_up_nanos < kDoesNotHold;
+  if (!place.is_early || !entry.is_new || is_in_vain) {
     entry.held_nanos.reset();
     return false;
   }
   if (!entry.held_nanos || now_nanos < *entry.held_nanos) entry.held_nanos = now_nanos;
-  entry.waits_in_vain = now_nanos - *entry.held_nanos >= kLongestHold;
-  return !entry.waits_in_vain;
+  const std::int64_t lives =
+      entry.dies_nanos == 0 ? 2 * kLongestHold : entry.dies_nanos - entry.came_nanos;
+  if (now_nanos - *entry.held_nanos < std::min(kLongestHold, lives / 2)) return true;
+  entry.held_nanos.reset();
+  entry.gave_up_nanos = now_nanos;
+  return false;
+}
+
+// With the message before it, if that waits for transforms, too.
+void MarkerStore::KeepWaiting(Entry& entry) {
+  constexpr std::size_t kMost = 8, kMostPoints = kMaxPointsOfAll / 4;
+  const std::size_t points = entry.shape->points.size();
+  while (!entry.waiting.empty() &&
+         (entry.waiting.size() >= kMost || waiting_points_ + points > kMostPoints)) {
+    waiting_points_ -= entry.waiting.front().shape->points.size();
+    entry.waiting.pop_front();
+  }
+  if (waiting_points_ + points > kMostPoints) return;
+  waiting_points_ += points;
+  entry.waiting.push_back({entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style});
+}
+
+void MarkerStore::StopWaiting(Entry& entry, std::size_t count) {
+  for (; count > 0; --count) {
+    waiting_points_ -= entry.waiting.front().shape->points.size();
+    entry.waiting.pop_front();
+  }
+}
+
+void MarkerStore::Release(Entry& entry) {
+  points_ -= entry.shape->points.size();
+  StopWaiting(entry, entry.waiting.size());
+}
+
+// The newest of them that has its transforms.
+bool MarkerStore::PlaceWaiting(Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
+  for (std::size_t count = entry.waiting.size(); count > 0; --count) {
+    const Waiting& each = entry.waiting[count - 1];
+    const auto place = frames.Find(each.frame, each.stamp_nanos);
+    if (!place || place->is_early) continue;
+    entry.held_nanos = now_nanos;  // transforms do come
+    const bool is_changed = PutAt(entry, each, place->pose);
+    StopWaiting(entry, count);
+    return is_changed;
+  }
+  return false;
+}
+
+bool MarkerStore::PutAt(Entry& entry, const Waiting& message, const urdf::Pose& frame) {
+  const urdf::Pose& local = message.shape->pose;
+  const urdf::Pose pose{frame.position + frame.orientation * local.position,
+                        (frame.orientation * local.orientation).normalized()};
+  if (entry.placed && entry.placed_shape == message.shape &&
+      entry.placed->pose.position == pose.position &&
+      entry.placed->pose.orientation.coeffs() == pose.orientation.coeffs()) {
+    return false;
+  }
+  SceneMarker placed = *message.shape;
+  placed.pose = pose;
+  if (message.axis_style) ColourByPlace(placed, *message.axis_style);
+  entry.placed = std::make_shared<const SceneMarker>(std::move(placed));
+  entry.placed_shape = message.shape;
+  return true;
 }
 
 bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
@@ -181,21 +243,11 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
     return false;  // it stays where it was, or has no place yet
   }
   if (!place) place.emplace();
-  if (IsHeld(entry, *place, now_nanos)) return false;
+  if (IsHeld(entry, *place, now_nanos)) return PlaceWaiting(entry, frames, now_nanos);
+  StopWaiting(entry, entry.waiting.size());
   entry.is_new = false;
   entry.is_early = place->is_early;
-  const urdf::Pose &frame = place->pose, &local = entry.shape->pose;
-  const urdf::Pose pose{frame.position + frame.orientation * local.position,
-                        (frame.orientation * local.orientation).normalized()};
-  if (entry.placed && entry.placed->pose.position == pose.position &&
-      entry.placed->pose.orientation.coeffs() == pose.orientation.coeffs()) {
-    return false;
-  }
-  SceneMarker placed = *entry.shape;
-  placed.pose = pose;
-  if (entry.axis_style) ColourByPlace(placed, *entry.axis_style);
-  entry.placed = std::make_shared<const SceneMarker>(std::move(placed));
-  return true;
+  return PutAt(entry, {entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style}, place->pose);
 }
 
 bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
@@ -214,7 +266,7 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   for (auto it = entries_.begin(); it != entries_.end();) {
     Entry& entry = it->second;
     if (entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
-      points_ -= entry.shape->points.size();
+      Release(entry);
       changed = changed || entry.placed;
       it = entries_.erase(it);
       continue;

@@ -7,6 +7,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -53,7 +54,8 @@ class MarkerStore {
 
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. A marker that is newer than the transforms of its
-  /// frame waits for half a second, then stands by the newest one until they have come. Unknown
+  /// frame waits for half a second, while the one before it stays, then stands by the newest one
+  /// until they have come. Unknown
   /// frames are looked up ten times per second. True if the list of `markers()` has changed.
   [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
@@ -77,9 +79,18 @@ class MarkerStore {
 
  private:
   using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, id
+  // A message that waits for transforms of its time.
+  struct Waiting {
+    std::shared_ptr<const SceneMarker> shape;
+    std::string frame;
+    std::int64_t stamp_nanos = 0;
+    std::optional<ShownStyle> axis_style;
+  };
   struct Entry {
-    std::shared_ptr<const SceneMarker> shape;   // its pose in `frame`
-    std::shared_ptr<const SceneMarker> placed;  // in the world frame; null: not yet
+    std::shared_ptr<const SceneMarker> shape;         // of the newest message; its pose in `frame`
+    std::shared_ptr<const SceneMarker> placed;        // in the world frame; null: not yet
+    std::shared_ptr<const SceneMarker> placed_shape;  // of the message that it is of
+    std::deque<Waiting> waiting;                      // messages before the newest
     std::string frame;
     std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
     std::int64_t stamp_nanos = 0;
@@ -90,19 +101,25 @@ class MarkerStore {
     bool is_lost = false;
     bool is_early = false;  // it stands by a transform that is older than its message
     std::int64_t came_nanos = 0;
-    // Since then it waits for transforms of its time; in vain: the next messages do not.
-    std::optional<std::int64_t> held_nanos;
-    bool waits_in_vain = false;
-    std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
+    std::optional<std::int64_t> held_nanos;     // since then it waits for transforms of its time
+    std::optional<std::int64_t> gave_up_nanos;  // then it had waited in vain
+    std::int64_t dies_nanos = 0;                // monotonic clock; 0: never
   };
 
   class FrameCache;
   bool Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos);
   static bool IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos);
+  void KeepWaiting(Entry& entry);
+  /// The first `count` of those that wait.
+  void StopWaiting(Entry& entry, std::size_t count);
+  void Release(Entry& entry);
+  bool PlaceWaiting(Entry& entry, FrameCache& frames, std::int64_t now_nanos);
+  static bool PutAt(Entry& entry, const Waiting& message, const urdf::Pose& frame);
   static Lost LostOf(const Key& key, const Entry& entry);
 
   std::map<Key, Entry> entries_;
-  std::size_t points_ = 0;  // in all entries
+  std::size_t points_ = 0;          // in all entries
+  std::size_t waiting_points_ = 0;  // in messages that wait
   bool has_changed_ = false;
   std::int64_t next_move_nanos_ = 0;   // monotonic clock; of markers locked to their frame
   std::int64_t next_retry_nanos_ = 0;  // monotonic clock; of markers without a place

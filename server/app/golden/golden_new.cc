@@ -11,6 +11,7 @@
 #include "server/app/print.h"
 #include "server/options/option_json.h"
 #include "server/options/yaml_file.h"
+#include "server/picture/moving_robots.h"
 #include "server/source/open_source.h"
 #include "server/source/scheme.h"
 
@@ -65,7 +66,13 @@ fs::path WriteNewCase(const fs::path& folder, const std::string& name,
   render::WriteNewFile(path, options::ToYaml(lines));
   try {
     const GoldenCase written = LoadGoldenCase(path);
-    if (!written.source->empty()) OpenSource(*written.source);
+    if (!written.source->empty()) {
+      SceneOptions scene;
+      AddBagView(written.view, scene);
+      SourceSettings settings;
+      settings.bag = scene.bag;
+      OpenSource(*written.source, settings);
+    }
   } catch (...) {
     std::error_code ignored;
     fs::remove(path, ignored);

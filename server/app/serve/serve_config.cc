@@ -253,7 +253,8 @@ void AddGraphView(const ServeOptions& options, ServeConfig& config) {
   }
   if (config.ros) {
     for (const ShownTopic& topic : *options.marker_topics) {
-      if (!topic.leaves_out_others) config.ros->shown.topics.push_back(topic);
+      const bool is_of_bag = topic.leaves_out_others || (is_bag && topic.is_frame);
+      if (!is_of_bag) config.ros->shown.topics.push_back(topic);
     }
     config.ros->shown.robots = std::move(of_graph);
     if (!is_bag) config.ros->shown.camera_frame = camera_frame;

@@ -91,6 +91,20 @@ class SampleWatch : public SampleSink {
   std::int64_t step_nanos_ = 0;
 };
 
+// "" if all could be read.
+std::string DamageIn(const BagMessages& messages) {
+  std::uint64_t count = 0;
+  std::vector<std::string> kinds;
+  for (const auto& [defect, records] : messages.defects()) {
+    count += records;
+    kinds.push_back(fmt::format("{}: {}", defect, records));
+  }
+  if (count == 0) return "";
+  return fmt::format("{} left out ({})",
+                     Counted(count, "damaged record was", "damaged records were"),
+                     fmt::join(kinds, ", "));
+}
+
 class BagSource : public Source {
  public:
   BagSource(const std::string& path, const GraphView& view)
@@ -112,6 +126,8 @@ class BagSource : public Source {
   // A picture may need the beginning of the bag alone, so the end is too late to say it.
   ~BagSource() override {
     if (counters_.samples > 0 || moment_nanos_ != 0) surroundings_.WarnOfProblems(name_);
+    const std::string damage = DamageIn(messages_);
+    if (!has_ended_ && !damage.empty()) WarnOfBag(name_, damage);
   }
   BagSource(const BagSource&) = delete;
   BagSource& operator=(const BagSource&) = delete;
@@ -157,6 +173,9 @@ class BagSource : public Source {
   void Take(const BagMessage& message);
   void TakeLinkStates(const BagMessage& message);
   void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos);
+  void PassMomentNow(std::int64_t now_nanos, std::int64_t stamp_nanos);
+  void PassMomentOrLater(std::int64_t now_nanos);
+  void PassLateMoment();
   /// Moments go on when no sample comes, if something else is shown.
   void PassMomentWithoutPeople(std::int64_t now_nanos);
   State End();
@@ -179,8 +198,9 @@ class BagSource : public Source {
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
   std::string world_;
-  std::int64_t moment_nanos_ = 0;  // of the newest moment that was passed on; 0: none was
-  std::int64_t person_nanos_ = 0;  // when the message of the newest sample was recorded
+  std::int64_t moment_nanos_ = 0;       // of the newest moment that was passed on; 0: none was
+  std::int64_t late_moment_nanos_ = 0;  // of a bag without people: of one that came too soon
+  std::int64_t person_nanos_ = 0;       // when the message of the newest sample was recorded
   bool has_ended_ = false;
   SourceCounters counters_;
   double rate_hz_ = 0;
@@ -188,20 +208,6 @@ class BagSource : public Source {
 
 SourceError ErrorIn(const std::string& name, const std::string& what) {
   return SourceError("bag '" + name + "': " + what);
-}
-
-// "" if all could be read.
-std::string DamageIn(const BagMessages& messages) {
-  std::uint64_t count = 0;
-  std::vector<std::string> kinds;
-  for (const auto& [defect, records] : messages.defects()) {
-    count += records;
-    kinds.push_back(fmt::format("{}: {}", defect, records));
-  }
-  if (count == 0) return "";
-  return fmt::format("{} left out ({})",
-                     Counted(count, "damaged record was", "damaged records were"),
-                     fmt::join(kinds, ", "));
 }
 
 void BagSource::ReadNames() {
@@ -368,11 +374,14 @@ Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink&
        ++i) {
     if (!messages_.Next(message)) {
       joiner_.Flush();
+      PassLateMoment();
       return End();
     }
+    const std::int64_t last = moment_nanos_ == 0 ? late_moment_nanos_ : moment_nanos_;
+    if (message.recorded_nanos - last >= kPlaceEveryNanos) PassLateMoment();
     Take(message);
     if (!has_person_) {
-      PassMoment(message.recorded_nanos, message.recorded_nanos);
+      PassMomentOrLater(message.recorded_nanos);
     } else if (counters_.samples != samples_before) {
       person_nanos_ = message.recorded_nanos;
     } else {
@@ -435,8 +444,28 @@ void BagSource::Take(const BagMessage& message) {
 }
 
 void BagSource::PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos) {
-  if (moment_nanos_ != 0 && now_nanos - moment_nanos_ < kPlaceEveryNanos) return;
+  const bool is_soon = moment_nanos_ != 0 && now_nanos - moment_nanos_ < kPlaceEveryNanos;
+  if (!is_soon) PassMomentNow(now_nanos, stamp_nanos);
+}
+
+// Of a bag without people. With the first message others come: a recorder begins with what is
+// latched.
+void BagSource::PassMomentOrLater(std::int64_t now_nanos) {
+  const bool is_soon = moment_nanos_ == 0 || now_nanos - moment_nanos_ < kPlaceEveryNanos;
+  if (!is_soon) return PassMomentNow(now_nanos, now_nanos);
+  if (moment_nanos_ != 0 || late_moment_nanos_ == 0) late_moment_nanos_ = now_nanos;
+}
+
+// Of what came too soon after the last one: places are looked at only so often.
+void BagSource::PassLateMoment() {
+  const std::int64_t late = std::exchange(late_moment_nanos_, 0);
+  if (late == 0) return;
+  PassMomentNow(moment_nanos_ == 0 ? late : moment_nanos_ + kPlaceEveryNanos, late);
+}
+
+void BagSource::PassMomentNow(std::int64_t now_nanos, std::int64_t stamp_nanos) {
   moment_nanos_ = now_nanos;
+  late_moment_nanos_ = 0;
   if (world_.empty()) world_ = surroundings_.FirstFrame();
   surroundings_.Update(now_nanos, world_, name_, watch_);
   watch_.OnMoment({stamp_nanos, 0});

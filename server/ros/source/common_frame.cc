@@ -8,6 +8,17 @@
 #include "core/system/utf8.h"
 
 namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::int64_t kPatienceNanos = 2 * kNanosPerSecond;
+
+bool AreSame(const urdf::Pose& a, const urdf::Pose& b) {
+  constexpr double kMetres = 1e-3, kRadians = 1e-3;
+  return (a.position - b.position).norm() < kMetres &&
+         a.orientation.angularDistance(b.orientation) < kRadians;
+}
+
+}  // namespace
 
 CommonFrame::CommonFrame(std::string source, std::string wanted)
     : source_(std::move(source)), wanted_(std::move(wanted)) {}
@@ -18,20 +29,25 @@ void CommonFrame::Take(const tf2_msgs::TFMessage& message, bool is_static) {
 }
 
 void CommonFrame::Bring(BodySample& sample, const std::string& root, const std::string& of_first) {
-  if (root.empty()) return;
-  const std::int64_t stamp = sample.stamp_nanos;
-  const bool is_wanted = !wanted_.empty() && (of_first == wanted_ || root == wanted_ ||
-                                              tree_.Find(wanted_, of_first, stamp));
-  const std::string& target = is_wanted ? wanted_ : of_first;
-  const bool is_there = root == target;
-  const auto place = is_there ? std::make_optional(FramePlace{}) : tree_.Find(target, root, stamp);
-  const bool is_as_wanted = wanted_.empty() || is_wanted;
-  if (!place || !is_as_wanted) {
+  const std::string& target = wanted_.empty() ? of_first : wanted_;
+  if (root.empty() || root == target) return;
+  const std::int64_t now = sample.stamp_nanos;
+  Root& known = roots_[root];
+  auto place = tree_.Find(target, root, now);
+  if (place) {
+    known.lost_nanos = 0;
+    known.is_told_lost = false;
+  } else {
     keeps_moving_ = true;
-    NoteLost(root, is_as_wanted ? target : wanted_, stamp);
+    NoteLost(known, root, of_first, now);
+    // Where the first one stays as it is, too.
+    if (root != of_first && !tree_.Find(target, of_first, now)) {
+      place = tree_.Find(of_first, root, now);
+    }
   }
-  if (is_there || !place) return;
-  const urdf::Pose& frame = place->pose;
+  if (!place) return;
+  Hold(known, root, place->pose, now);
+  const urdf::Pose& frame = known.held;
   const auto turn = [&](Eigen::Vector3d& v) { v = frame.orientation * v; };
   for (SegmentState& segment : sample.segments) {
     segment.position = frame.position + frame.orientation * segment.position;
@@ -43,22 +59,49 @@ void CommonFrame::Bring(BodySample& sample, const std::string& root, const std::
   }
 }
 
+// A place that is set anew, once, is taken half a second later.
+void CommonFrame::Hold(Root& known, const std::string& root, const urdf::Pose& place,
+                       std::int64_t now_nanos) const {
+  constexpr std::int64_t kStandsNanos = kNanosPerSecond / 2;
+  if (!known.is_placed) known.held = known.seen = place;
+  known.is_placed = true;
+  if (AreSame(place, known.held)) {
+    known.moved_nanos = 0;
+    known.seen = place;
+    return;
+  }
+  if (known.moved_nanos == 0 || now_nanos < known.moved_nanos) known.moved_nanos = now_nanos;
+  if (!AreSame(place, known.seen) || now_nanos < known.seen_nanos) {
+    known.seen = place;
+    known.seen_nanos = now_nanos;
+  }
+  if (now_nanos - known.seen_nanos >= kStandsNanos) {
+    known.held = place;
+    known.moved_nanos = 0;
+    return;
+  }
+  if (known.is_told_moving || now_nanos - known.moved_nanos < kPatienceNanos) return;
+  known.is_told_moving = true;
+  spdlog::warn(
+      "{}: people are in the frame '{}', which moves: they are placed where it was first, so that "
+      "their loads are those on a floor that stands",
+      source_, PrintableLine(root));
+}
+
 // The transforms may come some time after the people.
-void CommonFrame::NoteLost(const std::string& root, const std::string& target,
-                           std::int64_t now_nanos) {
-  constexpr std::int64_t kPatienceNanos = 2 * kNanosPerSecond;
-  constexpr std::size_t kMostTold = 64;
-  if (lost_nanos_ == 0 || now_nanos < lost_nanos_) lost_nanos_ = now_nanos;
-  if (now_nanos - lost_nanos_ < kPatienceNanos || told_.size() >= kMostTold) return;
-  if (!told_.insert(root).second) return;
+void CommonFrame::NoteLost(Root& known, const std::string& root, const std::string& of_first,
+                           std::int64_t now_nanos) const {
+  if (known.lost_nanos == 0 || now_nanos < known.lost_nanos) known.lost_nanos = now_nanos;
+  if (known.is_told_lost || now_nanos - known.lost_nanos < kPatienceNanos) return;
+  known.is_told_lost = true;
   const std::string way_out =
-      target == wanted_
+      root == of_first
           ? fmt::format("; if that is right, give --reference_frame {}", PrintableLine(root))
           : "; publish the transform between them";
   spdlog::warn(
       "{}: people are in the frame '{}', and TF has no way from there to '{}': they are placed as "
       "if these were the same{}",
-      source_, PrintableLine(root), PrintableLine(target), way_out);
+      source_, PrintableLine(root), PrintableLine(wanted_.empty() ? of_first : wanted_), way_out);
 }
 
 }  // namespace kinescope::ros_bridge

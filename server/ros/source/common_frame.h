@@ -5,7 +5,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
-#include <set>
+#include <map>
 #include <string>
 
 #include "core/body_sample.h"
@@ -13,10 +13,12 @@
 
 namespace kinescope::ros_bridge {
 
+/// Contact and loads are those of a person on a floor that stands, so a frame that moves in the
+/// common one, such as a cart, is taken where it was first, which is told.
 class CommonFrame {
  public:
-  /// `source`: for messages. `wanted`: the frame that is taken where TF connects it with that of
-  /// the first person; "": that of the first person is.
+  /// `source`: for messages. `wanted`: the frame that people are brought to where TF connects it
+  /// with theirs; "": that of the first person.
   CommonFrame(std::string source, std::string wanted);
 
   /// A message of /tf or /tf_static. What is not static is kept only if people need it.
@@ -29,13 +31,24 @@ class CommonFrame {
   void Bring(BodySample& sample, const std::string& root, const std::string& of_first);
 
  private:
-  void NoteLost(const std::string& root, const std::string& target, std::int64_t now_nanos);
+  struct Root {
+    std::int64_t lost_nanos = 0;  // since then there is no way; 0: there is one
+    bool is_told_lost = false, is_told_moving = false;
+    bool is_placed = false;
+    urdf::Pose held, seen;         // where it is taken; where it was last
+    std::int64_t seen_nanos = 0;   // since then it stands there
+    std::int64_t moved_nanos = 0;  // since then it is elsewhere than it is taken; 0: it is there
+  };
+
+  void NoteLost(Root& known, const std::string& root, const std::string& of_first,
+                std::int64_t now_nanos) const;
+  void Hold(Root& known, const std::string& root, const urdf::Pose& place,
+            std::int64_t now_nanos) const;
 
   const std::string source_, wanted_;
   TfTree tree_;
   bool keeps_moving_ = false;
-  std::int64_t lost_nanos_ = 0;  // since then there is a sample without a way; 0: there is none
-  std::set<std::string> told_;
+  std::map<std::string, Root> roots_;  // of people, of whom there are few
 };
 
 }  // namespace kinescope::ros_bridge

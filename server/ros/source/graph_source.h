@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/graph_view.h"
 #include "core/source.h"
 
 namespace kinescope::ros_bridge {

@@ -273,13 +273,35 @@ TEST(MarkerStore, PlacesAMarkerAgainUntilItsTimeIsKnown) {
   EXPECT_DOUBLE_EQ(X(store), 3) << "at its own time";
   cart.x = 9;
   EXPECT_FALSE(update(504)) << "for good";
-  scan.header.stamp = ros::Time(7);
-  EXPECT_FALSE(store.Apply(0, scan, 600 * kNanosPerMilli));
-  EXPECT_FALSE(update(600));
-  EXPECT_DOUBLE_EQ(X(store), 3) << "the one before stays";
-  cart.newest_nanos = 8 * kNanosPerSecond;
-  ASSERT_TRUE(update(700));
-  EXPECT_DOUBLE_EQ(X(store), 9);
+}
+
+// As RViz, which keeps messages until their transforms have come: of a marker that changes thirty
+// times a second, in a frame with ten transforms.
+TEST(MarkerStore, ShowsTheNewestThatHasItsTransforms) {
+  MarkerStore store;
+  Cart cart;
+  for (int i = 0; i < 60; ++i) {
+    const std::int64_t now = i * 33 * kNanosPerMilli, stamp = kNanosPerSecond + now;
+    if (i % 3 == 0) cart.newest_nanos = stamp - 10 * kNanosPerMilli;  // later than the one before
+    Marker cube = Cube(1, i);
+    cube.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
+    EXPECT_FALSE(store.Apply(0, cube, now));
+    static_cast<void>(store.Update(now, cart.Find()));
+    ASSERT_EQ(store.markers().size(), i < 3 ? 0u : 1u) << i << ": the one before stays";
+    if (i >= 3) EXPECT_DOUBLE_EQ(X(store), 1 + (i / 3 * 3 - 1)) << i;
+  }
+}
+
+TEST(MarkerStore, DoesNotWaitForHalfOfItsLife) {
+  MarkerStore store;
+  Cart cart;
+  cart.newest_nanos = 4 * kNanosPerSecond;
+  Marker scan = Cube(1);
+  scan.header.stamp = ros::Time(5);
+  scan.lifetime = ros::Duration(0.1);
+  EXPECT_FALSE(store.Apply(0, scan, 0));
+  EXPECT_FALSE(store.Update(0, cart.Find()));
+  EXPECT_TRUE(store.Update(60 * kNanosPerMilli, cart.Find()));
 }
 
 // Of a sender whose clock is ahead.

@@ -229,10 +229,10 @@ TEST_F(BagWithoutPeople, ShowsRobotsAndMarkersInTheRootOfItsFrames) {
   GraphView view;
   view.robots = {Arm()};
   const Moments moments = Read(path, view);
-  EXPECT_THAT(moments.stamps,
-              ElementsAre(kBegin, kBegin + kStep, kBegin + 2 * kStep, kBegin + 3 * kStep))
+  EXPECT_THAT(moments.stamps, ElementsAre(kBegin, kBegin + kStep, kBegin + kStep + 1,
+                                          kBegin + 2 * kStep, kBegin + 3 * kStep))
       << "the marker comes just after a moment";
-  EXPECT_THAT(moments.robots, ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(moments.robots, ElementsAre(1, 2, 2, 3, 4));
   EXPECT_TRUE(std::isnan(moments.markers[1]));
   EXPECT_EQ(moments.markers[2], 7);
 }
@@ -249,6 +249,17 @@ TEST_F(BagWithoutPeople, ShowsFramesAloneIfTheyAreNamed) {
   EXPECT_EQ(Read(path, view).stamps.size(), 1u);
   view.topics[0].name = "base";
   EXPECT_EQ(Read(path, view).stamps.size(), 1u);
+}
+
+// As `rosbag record` begins: with what is latched, within milliseconds.
+TEST_F(BagWithoutPeople, BeginsWithAllThatIsRecordedAtOnce) {
+  const std::string path = Write([](rosbag::Bag& bag) {
+    bag.write("/tf_static", TimeOf(kBegin), FrameAt("base", 1, kBegin));
+    bag.write("/walls", TimeOf(kBegin + 3'000'000), CubeIn("base", 1, 3));
+  });
+  const Moments moments = Read(path);
+  EXPECT_THAT(moments.stamps, ElementsAre(kBegin));
+  EXPECT_THAT(moments.markers, ElementsAre(4));
 }
 
 TEST_F(BagWithoutPeople, NeedsNoTransforms) {

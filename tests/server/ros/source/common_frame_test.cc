@@ -57,18 +57,58 @@ TEST(CommonFrame, HasPeopleWhoseFramesHangOnDifferentOnes) {
   EXPECT_NEAR(anna.segments[0].orientation.z(), std::sqrt(0.5), 1e-12);
 }
 
-TEST(CommonFrame, FollowsOneThatMoves) {
+// As the loads are those on a floor that stands.
+TEST(CommonFrame, TakesOneThatMovesWhereItWasFirstAndSaysSo) {
   CommonFrame frame("ros:/tf", "");
-  BodySample ben = SampleAfter(0);
-  frame.Bring(ben, "cart", "world");
-  EXPECT_EQ(ben.segments[0].position, Eigen::Vector3d(1, 0, 2)) << "not known yet";
-  for (const double secs : {1.0, 2.0}) {
-    frame.Take(TurnedFrame("world", "cart", 10 * secs, SampleAfter(secs).stamp_nanos), false);
+  const CapturedLog log;
+  const auto x_at = [&](double secs) {
+    BodySample sample = SampleAfter(secs);
+    frame.Bring(sample, "cart", "world");
+    return sample.segments[0].position.x();
+  };
+  EXPECT_EQ(x_at(0), 1) << "not known yet";
+  for (double secs = 0; secs < 4; secs += 0.1) {
+    frame.Take(TurnedFrame("world", "cart", 10 + secs, SampleAfter(secs).stamp_nanos), false);
+    EXPECT_NEAR(x_at(secs), 10, 1e-9) << secs;
   }
-  ben = SampleAfter(1.5);
-  frame.Bring(ben, "cart", "world");
-  EXPECT_LT((ben.segments[0].position - Eigen::Vector3d(15, 1, 2)).norm(), 1e-6)
-      << ben.segments[0].position.transpose();
+  const std::string said = log.text();
+  EXPECT_THAT(said, HasSubstr("ros:/tf: people are in the frame 'cart', which moves"));
+  EXPECT_EQ(said.find("which moves"), said.rfind("which moves"));
+}
+
+TEST(CommonFrame, TakesAPlaceThatIsSetAnew) {
+  CommonFrame frame("ros:/tf", "");
+  const CapturedLog log;
+  for (double secs = 0; secs < 3; secs += 0.1) {
+    frame.Take(TurnedFrame("world", "lab", secs < 1 ? 2 : 5), true);
+    BodySample sample = SampleAfter(secs);
+    frame.Bring(sample, "lab", "world");
+    if (secs < 0.95 || secs > 1.65) {
+      EXPECT_NEAR(sample.segments[0].position.x(), secs < 1 ? 2 : 5, 1e-9) << secs;
+    }
+  }
+  EXPECT_EQ(log.text(), "");
+}
+
+// Of two labs, one without a way to the hall.
+TEST(CommonFrame, KeepsThoseInTheirPlaceWhoHaveAWay) {
+  CommonFrame frame("ros:/tf", "hall");
+  const CapturedLog log;
+  frame.Take(TurnedFrame("hall", "lab_b", 20), true);
+  const auto x_of = [&](const char* root, double secs) {
+    BodySample sample = SampleAfter(secs);
+    frame.Bring(sample, root, "lab_a");
+    return sample.segments[0].position.x();
+  };
+  for (const double secs : {0.0, 3.0}) {
+    EXPECT_EQ(x_of("lab_a", secs), 1);
+    EXPECT_NEAR(x_of("lab_b", secs), 20, 1e-9);
+  }
+  EXPECT_THAT(log.text(),
+              HasSubstr("in the frame 'lab_a', and TF has no way from there to 'hall'"));
+  EXPECT_THAT(log.text(), Not(HasSubstr("lab_b")));
+  frame.Take(TurnedFrame("hall", "lab_a", 7), true);
+  EXPECT_NEAR(x_of("lab_a", 4), 7, 1e-9);
 }
 
 TEST(CommonFrame, SaysOnceWhereThereIsNoWay) {
