@@ -114,21 +114,25 @@ TEST_F(MarkersOverRos, WaitForTheirFrameAndFollowItIfLocked) {
 
 TEST_F(MarkersOverRos, AxesOfAFrameGoWithItAndThoseOfTheSceneStand) {
   ASSERT_NO_FATAL_FAILURE(ListenAnewTo("tf:cart,tf:"));
-  Await("1 markers; line list axes/0 at 0.000 0.000 0.000");
+  Await("1 markers; line list rviz/Axes/0 at 0.000 0.000 0.000");
   SetCart(1);
-  Await("2 markers; line list cart/0 at 1.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
+  Await(
+      "2 markers; line list rviz/Axes/0 at 1.000 0.000 0.000; line list rviz/Axes/0 at 0.000 0.000 "
+      "0.000");
   SetCart(2);
-  Await("2 markers; line list cart/0 at 2.000 0.000 0.000; line list axes/0 at 0.000 0.000 0.000");
+  Await(
+      "2 markers; line list rviz/Axes/0 at 2.000 0.000 0.000; line list rviz/Axes/0 at 0.000 0.000 "
+      "0.000");
 }
 
 TEST_F(MarkersOverRos, AllFramesHaveTheirNames) {
   ASSERT_NO_FATAL_FAILURE(ListenAnewTo("tf:*"));
-  Await("2 markers; line list tf/0 at 0.000 0.000 0.000; text tf/3 at 0.000 0.000 -0.020");
+  Await("2 markers; line list tf/0 at 0.000 0.000 0.000; text tf/3 at 0.000 0.000 -0.032");
   SetCart(1);  // its axes, the arrow from it to the world, and both names
   Await(
       "5 markers; line list tf/0 at 0.000 0.000 0.000; line list tf/1 at 0.000 0.000 0.000; "
-      "triangle list tf/2 at 0.000 0.000 0.000; text tf/3 at 1.000 0.000 -0.020; "
-      "text tf/4 at 0.000 0.000 -0.020");
+      "triangle list tf/2 at 0.000 0.000 0.000; text tf/3 at 1.000 0.000 -0.032; "
+      "text tf/4 at 0.000 0.000 -0.032");
 }
 
 TEST_F(MarkersOverRos, OnALinkFollowThePerson) {
