@@ -113,7 +113,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   entry.came_nanos = monotonic_nanos;
   const std::size_t sent = HasPoints(type) ? message.points.size() : 0;
   const std::size_t left = entry.shape->points.size();
-  if (left == sent || !HasPoints(type)) return std::nullopt;
+  if (left == sent) return std::nullopt;
   Refusal some = RefusalOf("some of its points", message,
                            fmt::format("points that are not finite, or are beyond 100 km, are left "
                                        "out: {} of {}",

@@ -55,8 +55,8 @@ class MarkerStore {
   /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
   /// frame, but in at most a tenth of the time. A marker that is newer than the transforms of its
   /// frame waits for half a second, while the one before it stays, then stands by the newest one
-  /// until they have come. Unknown
-  /// frames are looked up ten times per second. True if the list of `markers()` has changed.
+  /// until they have come. Unknown frames are looked up ten times per second. True if the list of
+  /// `markers()` has changed.
   [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
   /// Looks all frames up again: the reference frame is another one.
