@@ -171,7 +171,7 @@ struct GraphView {
   /// Of the transforms of a bag; "": /tf.
   std::string tf_topic = {};
   CameraFrames camera_frame = {};
-  /// Of a graph, where TF connects it with the people: they are placed in it. "": in the frame of
+  /// Of a graph: the people whose frames TF connects with it are placed in it. "": in the frame of
   /// the first of them.
   std::string reference_frame = {};
   /// Without it, a bag that has no person is shown if it has something else to show.

@@ -59,7 +59,7 @@ inline constexpr char kNamespaceOfFrames[] = "tf";
 /// Of grids, which need no legend, and are no part of what a camera frames.
 inline constexpr char kNamespaceOfGrids[] = "rviz/Grid";
 
-/// Of axes that mark a frame, likewise.
+/// Of axes that mark a frame, which need no legend either.
 inline constexpr char kNamespaceOfAxes[] = "rviz/Axes";
 
 /// All that stand in a scene at a time.

@@ -36,6 +36,24 @@ Eigen::Vector4f Tinted(const Eigen::Vector4f& of_file, const Eigen::Vector4d& co
   return tinted;
 }
 
+// @return around them
+Eigen::AlignedBox3f Put(const SceneMarker& marker, MarkerPlaces& to) {
+  const auto world_from_marker =
+      Eigen::Translation3d(marker.pose.position) * marker.pose.orientation;
+  Eigen::AlignedBox3f box;
+  to.name = IdentityOf(marker);
+  to.is_blended = IsTranslucent(marker);
+  to.positions.reserve(marker.points.size());
+  to.colors.reserve(marker.points.size());
+  for (std::size_t i = 0; i < marker.points.size(); ++i) {
+    to.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
+    box.extend(to.positions.back());
+    const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
+    to.colors.emplace_back(color.cast<float>());
+  }
+  return box;
+}
+
 std::string NotDrawn(const SceneMarker& marker, const std::string& why) {
   return "marker " + IdentityOf(marker) + " is not drawn: " + why;
 }
@@ -109,22 +127,11 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
 }
 
 void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {
-  const auto world_from_marker =
-      Eigen::Translation3d(marker.pose.position) * marker.pose.orientation;
   MarkerPoints& points = to.points.emplace_back();
-  points.name = IdentityOf(marker);
   points.size = marker.scale.head<2>().cast<float>();
   points.is_in_pixels = marker.is_in_pixels;
-  points.is_blended = IsTranslucent(marker);
-  points.positions.reserve(marker.points.size());
-  points.colors.reserve(marker.points.size());
   auto& [box, around_px] = to.boxes.emplace_back();
-  for (std::size_t i = 0; i < marker.points.size(); ++i) {
-    points.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
-    box.extend(points.positions.back());
-    const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
-    points.colors.emplace_back(color.cast<float>());
-  }
+  box = Put(marker, points);
   if (points.is_in_pixels) {
     around_px = 0.5f * points.size.maxCoeff();
     return;
@@ -134,21 +141,8 @@ void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {
 }
 
 void MarkerReader::AddLines(const SceneMarker& marker, MarkerShapes& to) {
-  const auto world_from_marker =
-      Eigen::Translation3d(marker.pose.position) * marker.pose.orientation;
-  MarkerLines& lines = to.lines.emplace_back();
-  lines.name = IdentityOf(marker);
-  lines.is_blended = IsTranslucent(marker);
-  lines.positions.reserve(marker.points.size());
-  lines.colors.reserve(marker.points.size());
-  auto& [box, around_px] = to.boxes.emplace_back();
-  around_px = 1;
-  for (std::size_t i = 0; i < marker.points.size(); ++i) {
-    lines.positions.emplace_back((world_from_marker * marker.points[i]).cast<float>());
-    box.extend(lines.positions.back());
-    const Eigen::Vector4d& color = marker.colors.empty() ? marker.color : marker.colors[i];
-    lines.colors.emplace_back(color.cast<float>());
-  }
+  const Eigen::AlignedBox3f box = Put(marker, to.lines.emplace_back());
+  to.boxes.push_back({box, 1});
 }
 
 const VisualMesh& MarkerReader::MeshOf(const std::string& uri) {

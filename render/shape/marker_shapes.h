@@ -15,23 +15,22 @@
 
 namespace kinescope::render {
 
-/// Squares that face the viewer: those of one marker.
-struct MarkerPoints {
-  std::string name;           // "scan/0"
-  Eigen::Vector2f size;       // width and height
-  bool is_in_pixels = false;  // `size` is in pixels of the picture, not in metres
+/// Places of one marker with their colours.
+struct MarkerPlaces {
+  std::string name;  // "scan/0"
   bool is_blended = false;
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector4f> colors;  // one for each
 };
 
-/// Lines of one pixel of the picture, at any distance: those of one marker.
-struct MarkerLines {
-  std::string name;  // "rviz/Grid/0"
-  bool is_blended = false;
-  std::vector<Eigen::Vector3f> positions;  // two for each line
-  std::vector<Eigen::Vector4f> colors;     // one for each position
+/// Squares that face the viewer.
+struct MarkerPoints : MarkerPlaces {
+  Eigen::Vector2f size;       // width and height
+  bool is_in_pixels = false;  // `size` is in pixels of the picture, not in metres
 };
+
+/// Lines of one pixel of the picture, at any distance; each has two places.
+struct MarkerLines : MarkerPlaces {};
 
 /// Around a marker with triangles or points.
 struct MarkerBox {

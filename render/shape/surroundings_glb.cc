@@ -65,15 +65,8 @@ class Document {
 
   void AddPoints(const MarkerPoints& points) {
     constexpr int kModeOfPoints = 0;
-    json& meshes = glb_.document()["meshes"];
-    meshes.push_back({{"primitives",
-                       {{{"mode", kModeOfPoints},
-                         {"attributes",
-                          {{"POSITION", glb_.AddPositions(Flat(points.positions))},
-                           {"COLOR_0", AddColors(points.colors)}}},
-                         {"material", points.is_blended ? kBlended : kClosed}}}}});
     AddNode({{"name", "points"},
-             {"mesh", meshes.size() - 1},
+             {"mesh", AddPlaces(points, kModeOfPoints)},
              {"extras",
               {{"size", {points.size.x(), points.size.y()}}, {"in_pixels", points.is_in_pixels}}}},
             kRoot);
@@ -81,14 +74,7 @@ class Document {
 
   void AddLines(const MarkerLines& lines) {
     constexpr int kModeOfLines = 1;
-    json& meshes = glb_.document()["meshes"];
-    meshes.push_back({{"primitives",
-                       {{{"mode", kModeOfLines},
-                         {"attributes",
-                          {{"POSITION", glb_.AddPositions(Flat(lines.positions))},
-                           {"COLOR_0", AddColors(lines.colors)}}},
-                         {"material", lines.is_blended ? kBlended : kClosed}}}}});
-    AddNode({{"name", "lines"}, {"mesh", meshes.size() - 1}}, kRoot);
+    AddNode({{"name", "lines"}, {"mesh", AddPlaces(lines, kModeOfLines)}}, kRoot);
   }
 
   void AddLabel(const Label& label) {
@@ -119,6 +105,18 @@ class Document {
     nodes_[parent]["children"].push_back(nodes_.size());
     nodes_.push_back(std::move(node));
     return nodes_.size() - 1;
+  }
+
+  // Its number.
+  std::size_t AddPlaces(const MarkerPlaces& places, int mode) {
+    json& meshes = glb_.document()["meshes"];
+    meshes.push_back({{"primitives",
+                       {{{"mode", mode},
+                         {"attributes",
+                          {{"POSITION", glb_.AddPositions(Flat(places.positions))},
+                           {"COLOR_0", AddColors(places.colors)}}},
+                         {"material", places.is_blended ? kBlended : kClosed}}}}});
+    return meshes.size() - 1;
   }
 
   // Its number; nullopt: there are no triangles.

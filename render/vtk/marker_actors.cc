@@ -49,20 +49,16 @@ void MarkerActors::Update(const std::vector<std::shared_ptr<const SceneMarker>>&
 }
 
 void MarkerActors::SetViewSize(int width_px, int height_px) {
-  for (PointActor* points : {&solid_points_, &blended_points_}) {
-    points->SetViewSize(width_px, height_px);
-  }
-  for (LineActor* lines : {&solid_lines_, &blended_lines_}) lines->SetViewSize(width_px, height_px);
+  for (UnlitActor* unlit : Unlit()) unlit->SetViewSize(width_px, height_px);
 }
 
 std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
-  std::vector<std::string> names = actor == solid_.actor()            ? solid_names_
-                                   : actor == blended_.actor()        ? blended_names_
-                                   : actor == solid_points_.actor()   ? solid_points_.names()
-                                   : actor == blended_points_.actor() ? blended_points_.names()
-                                   : actor == solid_lines_.actor()    ? solid_lines_.names()
-                                   : actor == blended_lines_.actor()  ? blended_lines_.names()
-                                                                      : std::vector<std::string>();
+  std::vector<std::string> names;
+  if (actor == solid_.actor()) names = solid_names_;
+  if (actor == blended_.actor()) names = blended_names_;
+  for (UnlitActor* unlit : Unlit()) {
+    if (actor == unlit->actor()) names = unlit->names();
+  }
   for (std::string& name : names) name.insert(0, "marker ");
   return names;
 }

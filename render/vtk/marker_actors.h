@@ -26,7 +26,7 @@ class MarkerActors {
   void Update(const std::vector<std::shared_ptr<const SceneMarker>>& markers, OnceLog& log,
               std::vector<Label>& labels);
 
-  /// As PointActor.
+  /// As UnlitActor.
   void SetViewSize(int width_px, int height_px);
 
   /// Markers that are not rendered, or whose mesh is replaced by a box: one line each, with the
@@ -44,6 +44,9 @@ class MarkerActors {
 
  private:
   void Build();
+  std::array<UnlitActor*, 4> Unlit() {
+    return {&solid_points_, &blended_points_, &solid_lines_, &blended_lines_};
+  }
 
   PartActor solid_, blended_;
   PointActor solid_points_{false}, blended_points_{true};

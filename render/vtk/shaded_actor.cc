@@ -28,8 +28,10 @@ vtkStandardNewMacro(SurfaceMapper)
   vtkOpenGLPolyDataMapper::BuildIBO(renderer, actor, data);
 }
 
+std::vector<VertexAttribute> ShadedActor::AttributesOfMesh() { return {{"part", 1}, {"tint", 4}}; }
+
 ShadedActor::ShadedActor(Pass pass, const ShaderText& text)
-    : ShadedActor(pass, text, {{"part", 1}, {"tint", 4}}) {}
+    : ShadedActor(pass, text, AttributesOfMesh()) {}
 
 ShadedActor::ShadedActor(Pass pass, const ShaderText& text,
                          const std::vector<VertexAttribute>& attributes) {

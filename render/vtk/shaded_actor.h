@@ -47,9 +47,12 @@ class SurfaceMapper : public vtkOpenGLPolyDataMapper {
 
 class ShadedActor {
  public:
-  /// For urdf::Mesh: with `float part` and `vec4 tint`.
+  /// Of a urdf::Mesh: `float part` and `vec4 tint`.
+  static std::vector<VertexAttribute> AttributesOfMesh();
+
+  /// For SetMesh().
   ShadedActor(Pass pass, const ShaderText& text);
-  /// For SetSurface.
+  /// For SetSurface().
   ShadedActor(Pass pass, const ShaderText& text, const std::vector<VertexAttribute>& attributes);
   ShadedActor(const ShadedActor&) = delete;
   ShadedActor& operator=(const ShadedActor&) = delete;

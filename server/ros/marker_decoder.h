@@ -37,7 +37,7 @@ struct DecodedMessage {
 
 class MarkerDecoder {
  public:
-  using Event = ros::MessageEvent<const RawMessage>;
+  using Event = RawEvent;
 
   MarkerDecoder(std::vector<ShownTopic> topics, FindJoint find)
       : topics_(std::move(topics)), shown_(std::move(find)) {}

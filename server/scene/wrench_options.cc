@@ -41,15 +41,6 @@ void WrenchFileValue::Parse(const std::string& text) {
   value_ = text;
 }
 
-std::vector<std::filesystem::path> WrenchFileValue::Files() const {
-  if (value_.empty()) return {};
-  return {value_};
-}
-
-void WrenchFileValue::SetFolder(const std::filesystem::path& folder) {
-  if (!value_.empty()) value_ = (folder / value_).string();
-}
-
 void WrenchBodiesValue::Parse(const std::string& text) {
   std::vector<GroupBody> groups;
   std::size_t begin = 0;

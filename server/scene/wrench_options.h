@@ -14,20 +14,15 @@
 namespace kinescope::app {
 
 /// FILE.csv, FILE.mot or FILE.sto; "": none.
-class WrenchFileValue : public options::ValueOf<std::string> {
+class WrenchFileValue : public options::FilePath {
  public:
-  WrenchFileValue() : ValueOf({}) {}
   WrenchFileValue& operator=(std::string path) {
     value_ = std::move(path);
     return *this;
   }
 
   void Parse(const std::string& text) override;
-  std::string ToText() const override { return value_; }
   std::string Expected() const override { return "FILE.csv, FILE.mot or FILE.sto"; }
-  bool IsGiven() const override { return !value_.empty(); }
-  std::vector<std::filesystem::path> Files() const override;
-  void SetFolder(const std::filesystem::path& folder) override;
 };
 
 /// X,Y,YAW (m and degrees).

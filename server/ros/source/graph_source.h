@@ -21,8 +21,8 @@ bool IsGraphUrl(std::string_view url);
 ///
 /// - Frames, samples, arms, skeletons and counters are as in bag_source.h, with receive times in
 ///   place of the bag's times; people are searched when no new frame has appeared for 0.25 s.
-/// - People whose frames hang on different ones are brought into one: `view.reference_frame` where
-///   TF connects it with that of the first person, else that of the first person.
+/// - People whose frames hang on different ones are brought into one (common_frame.h):
+///   `view.reference_frame`, "": that of the first person.
 /// - A link state topic belongs to one person; its samples have velocities and accelerations if
 ///   these are published.
 /// - Messages of Kinescope's own node are counted in `ignored`.

@@ -28,7 +28,7 @@ namespace kinescope::ros_bridge {
 
 class LiveTopics {
  public:
-  using Event = ros::MessageEvent<const RawMessage>;
+  using Event = RawEvent;
   using OnMessage = std::function<void(std::size_t topic, const Event& event)>;
 
   struct Status {
