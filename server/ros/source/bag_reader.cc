@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -23,6 +25,7 @@ constexpr std::uint32_t kLargestConnection = 4 << 20;   // with the text of the 
 constexpr std::size_t kMostConnectionBytes = 16 << 20;  // of all names that are kept
 constexpr std::uint64_t kSeekFrom = 256 * 1024;         // bytes; fewer are read faster than sought
 constexpr std::size_t kPackedBlock = 64 * 1024;
+constexpr std::size_t kLargestChecked = 16 << 20;  // bytes; rosbag makes chunks of 768 kB
 
 constexpr char kBeyondChunk[] = "record that extends beyond its chunk";
 constexpr char kBadHeader[] = "record with a damaged header";
@@ -30,6 +33,8 @@ constexpr char kBadConnection[] = "connection record that is damaged or too long
 constexpr char kManyConnections[] = "connection beyond the limit";
 constexpr char kUnknownConnection[] = "message of a connection that the bag does not describe";
 constexpr char kNotUnpacked[] = "chunk that cannot be decompressed";
+constexpr char kBadChecksum[] =
+    "chunk that fails its checksum or cannot be decompressed, with all of its messages";
 constexpr char kBadChunkLength[] = "chunk with a damaged length";
 constexpr char kCutOff[] = "record that is cut off by the end of the bag";
 constexpr char kBadIndex[] = "index with a damaged length";
@@ -165,10 +170,22 @@ bool BagReader::Read(void* to, std::size_t size) {
     LoseFraming(kBeyondChunk);
     return false;
   }
+  if (chunk_->is_checked) return ReadChecked(to, size);
   chunk_->left -= size;
   if (chunk_->unpacker != nullptr) return ReadUnpacked(static_cast<char*>(to), size);
   chunk_->left_in_file -= size;
   return ReadFile(to, size);
+}
+
+bool BagReader::ReadChecked(void* to, std::size_t size) {
+  if (size > unpacked_.size() - unpacked_read_) {
+    EndOfFile();
+    return false;
+  }
+  std::memcpy(to, unpacked_.data() + unpacked_read_, size);
+  unpacked_read_ += size;
+  chunk_->left -= size;
+  return true;
 }
 
 bool BagReader::ReadUnpacked(char* to, std::size_t size) {
@@ -384,6 +401,28 @@ void BagReader::OpenChunk(const BagRecordHeader& header, std::uint32_t size) {
   chunk_->unpacker = std::make_unique<Decompressor>(
       [this](const void** bytes) { return ReadPacked(bytes); },
       header.compression == "bz2" ? Decompressor::Format::kBzip2 : Decompressor::Format::kLz4);
+  if (is_complete && unpacked_size <= kLargestChecked) UnpackChecked();
+}
+
+// The checksum comes last. What fails it may be wrong in any place: a velocity, a load.
+void BagReader::UnpackChecked() {
+  chunk_->is_checked = true;
+  unpacked_.clear();
+  unpacked_read_ = 0;
+  ssize_t count = 1;
+  while (count > 0 && unpacked_.size() <= kLargestChecked) {
+    const std::size_t before = unpacked_.size();
+    unpacked_.resize(before + kPackedBlock);
+    count = chunk_->unpacker->Read(unpacked_.data() + before, kPackedBlock);
+    unpacked_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  }
+  if (count < 0 && (std::feof(file_.get()) != 0 || std::ferror(file_.get()) != 0)) {
+    chunk_->left = std::numeric_limits<std::uint64_t>::max();  // the file ends in it
+    return;
+  }
+  if (count != 0) return LoseFraming(kBadChecksum);
+  if (chunk_->left != unpacked_.size()) Count(kBadChunkLength);
+  chunk_->left = unpacked_.size();
 }
 
 void BagReader::CloseChunk() {

@@ -41,8 +41,8 @@ InputFile OpenBagFile(const std::string& path);
 /// Needs neither the index nor the end of a bag, so that it also reads one that was not closed, is
 /// truncated, or is compressed as a whole. Where the record of a connection is damaged, the index
 /// has it again. Memory is limited, whatever the lengths in the file
-/// state: chunks are decompressed while they are read, and messages that are not wanted are
-/// skipped.
+/// state: messages that are not wanted are skipped. Of a compressed chunk that fails its checksum
+/// no message is used; one of more than 16 MiB is decompressed while it is read, unchecked.
 ///
 /// A damaged record is counted in defects(). If it has a wrong length, reading goes on with the
 /// next chunk: where this one ends, or where the header of a chunk is found.
@@ -83,6 +83,7 @@ class BagReader {
     std::uint64_t left = 0;                  // bytes, decompressed
     std::uint64_t left_in_file = 0;          // bytes, as stored
     bool has_two_lengths = false;            // which differ, so that its end is not sure
+    bool is_checked = false;                 // all of it is in unpacked_
     std::unique_ptr<Decompressor> unpacker;  // null: not compressed
   };
 
@@ -94,11 +95,14 @@ class BagReader {
   void AddConnection(const BagRecordHeader& header, const std::vector<std::uint8_t>& data);
   void ReadConnectionsOfIndex();
   void OpenChunk(const BagRecordHeader& header, std::uint32_t size);
+  /// Unpacks the whole chunk, which only then can be checked.
+  void UnpackChecked();
   void CloseChunk();
 
   // False: the rest of the record is not there; that has been noted.
   bool Read(void* to, std::size_t size);
   bool ReadUnpacked(char* to, std::size_t size);
+  bool ReadChecked(void* to, std::size_t size);
   bool ReadFile(void* to, std::size_t size);
   bool Skip(std::uint64_t size);
   bool SkipInFile(std::uint64_t size);
@@ -121,9 +125,11 @@ class BagReader {
   std::uint64_t at_ = 0;         // bytes of the file that were read
   std::uint64_t index_at_ = 0;   // as the bag states it; 0: not closed
   std::optional<Chunk> chunk_;
-  std::string ahead_;                // bytes of the file that FindChunk() read too far
-  std::size_t ahead_read_ = 0;       // of them, that were read again
-  std::vector<char> packed_;         // what ReadPacked() returned
+  std::string ahead_;           // bytes of the file that FindChunk() read too far
+  std::size_t ahead_read_ = 0;  // of them, that were read again
+  std::vector<char> packed_;    // what ReadPacked() returned
+  std::vector<char> unpacked_;  // of a chunk that is checked
+  std::size_t unpacked_read_ = 0;
   std::vector<std::uint8_t> bytes_;  // of a header or connection
   std::map<std::uint32_t, BagConnection> connections_;
   std::size_t connection_bytes_ = 0;

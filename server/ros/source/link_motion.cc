@@ -13,7 +13,9 @@ using urdf::At;
 using xsens_mvn_ros_msgs::LinkState;
 
 constexpr char kNotWhole[] = "sample without all 23 segments";
-constexpr char kNotFinite[] = "link state with a velocity or acceleration that is not finite";
+constexpr char kImplausible[] =
+    "link state with a velocity or acceleration that is not finite, or above 100,000";
+constexpr double kLargest = 1e5;  // m/s, m/s², rad/s, rad/s²; a person's are below 10,000
 
 template <class RosVector>
 Vector3d ToVector(const RosVector& v) {
@@ -39,7 +41,8 @@ const char* FindLinks(const xsens_mvn_ros_msgs::LinkStateArray& message,
     if (const char* defect = DefectOf({p.x, p.y, p.z}, {r.x, r.y, r.z, r.w})) return defect;
     for (const auto& vector :
          {state.twist.linear, state.twist.angular, state.accel.linear, state.accel.angular}) {
-      if (!ToVector(vector).allFinite()) return kNotFinite;
+      const Vector3d motion = ToVector(vector);
+      if (!motion.allFinite() || motion.cwiseAbs().maxCoeff() > kLargest) return kImplausible;
     }
     states[At(segment)] = &state;
   }

@@ -811,7 +811,8 @@ TEST_P(CompressedBagTest, SkipsAndCountsADamagedChunk) {
   EXPECT_GE(recorded.samples.size(), 15U);
   EXPECT_LT(recorded.samples.size(), 20U);
   const auto& rejected = recorded.counters.rejected;
-  EXPECT_GE(rejected.count("chunk that cannot be decompressed") +
+  EXPECT_GE(rejected.count("chunk that fails its checksum or cannot be decompressed, with all of "
+                           "its messages") +
                 rejected.count("record with a damaged header"),
             1U)
       << ::testing::PrintToString(rejected);

@@ -92,7 +92,7 @@ TEST_F(LinkStatesPersonTest, TreatsAllZeroTwistsAsUnmeasured) {
 }
 
 TEST_F(LinkStatesPersonTest, CountsRejectedMessagesAndContinues) {
-  for (int n = 0; n < 8; ++n) {
+  for (int n = 0; n < 9; ++n) {
     auto message = MessageAt(n);
     if (n == 1) message.states[4].pose.position.x = std::numeric_limits<double>::infinity();
     if (n == 2) message.states[4].pose.orientation = {};
@@ -100,16 +100,19 @@ TEST_F(LinkStatesPersonTest, CountsRejectedMessagesAndContinues) {
     if (n == 4) message.states.pop_back();
     if (n == 5) message.header.stamp = MessageAt(0).header.stamp;
     if (n == 6) message.states.clear();
+    if (n == 7) message.states[4].twist.angular.x = -1e206;  // of a bag with a changed byte
     Take(n, message);
   }
   EXPECT_THAT(
       counters_.rejected,
-      UnorderedElementsAre(Pair("transform with a number that is not finite", 1),
-                           Pair("transform with a quaternion that is not of unit length", 1),
-                           Pair("link state with a velocity or acceleration that is not finite", 1),
-                           Pair("sample without all 23 segments", 2)));
+      UnorderedElementsAre(
+          Pair("transform with a number that is not finite", 1),
+          Pair("transform with a quaternion that is not of unit length", 1),
+          Pair("link state with a velocity or acceleration that is not finite, or above 100,000",
+               2),
+          Pair("sample without all 23 segments", 2)));
   EXPECT_EQ(counters_.duplicates, 1U) << "the stamp of the first once more";
-  EXPECT_EQ(sink_.samples.size(), 2U) << "0 and 7";
+  EXPECT_EQ(sink_.samples.size(), 2U) << "0 and 8";
 }
 
 }  // namespace
