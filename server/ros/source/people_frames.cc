@@ -44,6 +44,8 @@ std::string Trimmed(std::string text) {
 
 bool PeopleFrames::Add(const std::string& frame) {
   if (frame.size() > kLongestName || names_.size() >= kMaxNames) return false;
+  if (looked_.count(frame) > 0) return false;
+  if (looked_.size() < kMaxLooked) looked_.insert(frame);
   bool is_candidate = false;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     const std::string_view link = urdf::kSegments[At(segment)].link_name;

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "urdf/segments.h"
@@ -59,7 +60,10 @@ class PeopleFrames {
   bool TakePerson(const std::string& prefix, const std::string& ending,
                   const std::vector<Candidate>& candidates);
 
-  std::set<std::string> names_;  // candidates, so that each name is checked once
+  static constexpr std::size_t kMaxLooked = 50'000;  // as TfTree::kMostFrameNames
+
+  std::unordered_set<std::string> looked_;  // names that were added: most come again and again
+  std::set<std::string> names_;             // candidates
   std::unordered_map<std::string, std::vector<Candidate>> by_prefix_;
   std::set<std::string> prefixes_in_order_;  // sorted, so that people have the same numbers in
                                              // every run
