@@ -154,7 +154,7 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
   const Lifted lifted(finite.state(), camera, finite.spec());
   if (format == LayerFormat::kPdfPage) {
     PictureSpec below = spec;
-    below.overlays = below.lines = false;
+    below.overlays = below.marker_texts = below.lines = false;
     SetSize(below_layer_, spec.width, spec.height);
     DoRender(below_layer_, state, camera, below);
   }
@@ -162,7 +162,7 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
   const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format,
                                         format == LayerFormat::kPdfPage ? &below_layer_ : nullptr);
   PaintLinesOf(*painter, views, lifted.spec());
-  if (spec.overlays) overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
+  PaintOverlays(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }
 
@@ -176,9 +176,8 @@ PictureContents ModuleRenderer::DoContents(const SceneState& state, const Camera
   const SceneState shown =
       HidesAnything(used.look) ? Without(lifted.state(), used.look) : lifted.state();
   for (const DrawnView& view : views) SeeView(shown, view, used, contents.objects);
-  if (!used.overlays) return contents;
   TextNotes notes;
-  overlay_.Paint(notes, lifted.state(), views, used);
+  PaintOverlays(notes, lifted.state(), views, used);
   contents.texts = notes.Take();
   return contents;
 }
@@ -260,8 +259,13 @@ void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const C
   }
   Canvas canvas(image);
   if (spec.lines) PaintLinesOf(canvas, drawn_, spec);
-  if (!spec.overlays) return;
-  overlay_.Paint(canvas, state, drawn_, spec);
+  PaintOverlays(canvas, state, drawn_, spec);
+}
+
+void ModuleRenderer::PaintOverlays(Painter& painter, const SceneState& state,
+                                   const std::vector<DrawnView>& views, const PictureSpec& spec) {
+  if (spec.overlays) return overlay_.Paint(painter, state, views, spec);
+  if (spec.marker_texts) overlay_.PaintMarkerTexts(painter, views, spec);
 }
 
 // Overlays and all, so that nothing that is drawn or written needs to know about alpha.

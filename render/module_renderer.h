@@ -38,6 +38,8 @@ class ModuleRenderer : public Renderer {
   std::vector<DrawnView> ViewsAsDrawn(const Camera& camera, const PictureSpec& spec) const;
   void RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
                     const PictureSpec& spec);
+  void PaintOverlays(Painter& painter, const SceneState& state, const std::vector<DrawnView>& views,
+                     const PictureSpec& spec);
   void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
                          const PictureSpec& spec);
   void DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,

@@ -81,6 +81,7 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
                         const PictureSpec& spec, const Backdrop& backdrop, bool has_time_code) {
   page.canvas.Begin("names");
   PaintNames(page, state, drawn.camera, spec.parts.names, drawn.painted.labels);
+  PaintMarkerTextsOf(page, drawn, backdrop);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
   if (spec.parts.scale) {
@@ -360,11 +361,6 @@ void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& came
     page.canvas.Text(left + 0.6 * size, top + 1.25 * size, names[i].text, f.regular, size,
                      names[i].is_faint ? page.inks.faint_text : page.inks.text);
   }
-  for (const Label& label : labels) {
-    if (label.kind != Label::Kind::kMarker) continue;
-    const Projected at = project(label.position);
-    PaintMarkerText(page, label, at);
-  }
 }
 
 // From what a label is about to its box.
@@ -377,10 +373,37 @@ void Overlay::PaintLeader(Page& page, double x, double y, const LabelBox& box,
   page.canvas.Polyline({{x, y}, {end_x, end_y}}, width, page.inks.faint_text);
 }
 
+void Overlay::PaintMarkerTextsOf(Page& page, const DrawnView& drawn, const Backdrop& backdrop) {
+  for (const Label& label : drawn.painted.labels) {
+    if (label.kind != Label::Kind::kMarker) continue;
+    const Projected at = Project(label.position, drawn.camera, static_cast<int>(page.width),
+                                 static_cast<int>(page.height));
+    const bool is_there = at.depth_m > 0 && std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5;
+    if (!is_there) continue;
+    PaintMarkerText(page, label, at,
+                    backdrop.InksAt(drawn.tile.x + at.x_px, drawn.tile.y + at.y_px));
+  }
+}
+
+void Overlay::PaintMarkerTexts(Painter& painter, const std::vector<DrawnView>& drawn,
+                               const PictureSpec& spec) {
+  Page page(SizesOf(spec, fonts()), painter, InksOf(spec));
+  const Backdrop backdrop(spec, drawn);
+  painter.Begin("names");
+  for (const DrawnView& each : drawn) {
+    painter.Enter(each.tile);
+    page.width = each.tile.width;
+    page.height = each.tile.height;
+    PaintMarkerTextsOf(page, each, backdrop);
+  }
+}
+
 // Line by line, as high as it is in the world. In steps, so that a text that comes nearer does not
-// fill the font's memory with every size there is.
-void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& at) {
-  if (!(at.depth_m > 0) || !(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
+// fill the font's memory with every size there is. Markers of RViz are often white, as the names of
+// frames: on a light background they have a dark panel.
+// @param inks  those that suit what is behind it
+void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& at,
+                              const Inks& inks) {
   constexpr double kCapitalShare = 0.73;  // of a size, DejaVu Sans
   constexpr double kSmallest = 5, kLargest = 384, kLine = 1.2;
   const double wanted = label.height_m * at.px_per_m / kCapitalShare;
@@ -396,6 +419,15 @@ void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& a
   for (std::string line; std::getline(lines, line);) {
     texts.push_back(Shorten(line, font, size, page.width));
     width = std::max(width, font.Width(texts.back(), size));
+  }
+  constexpr double kLeastContrast = 0.3;
+  const double lightness = Lightness(label.color);
+  if (std::abs(lightness - Lightness(inks.panel.color)) < kLeastContrast) {
+    Ink panel = (&inks == &kLightInks ? kDarkInks : kLightInks).panel;
+    panel.alpha *= label.opacity;
+    page.canvas.RoundedBox(at.x_px - width / 2 - 0.4 * size, y - 1.1 * size, width + 0.8 * size,
+                           kLine * size * static_cast<double>(texts.size()) + 0.3 * size,
+                           0.3 * size, panel);
   }
   for (const std::string& text : texts) {  // with one left edge, as in RViz
     page.canvas.Text(at.x_px - width / 2, y, text, font, size, {label.color, label.opacity});

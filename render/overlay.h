@@ -46,6 +46,10 @@ class Overlay {
   void Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
              const PictureSpec& spec);
 
+  /// The texts of markers and frames alone. @throws RenderError as above
+  void PaintMarkerTexts(Painter& painter, const std::vector<DrawnView>& drawn,
+                        const PictureSpec& spec);
+
  private:
   using Page = OverlayPage;
   OverlayFonts& fonts();  // opened when first needed
@@ -67,7 +71,8 @@ class Overlay {
   void PaintNames(Page& page, const SceneState& state, const Camera& camera, bool has_names,
                   const std::vector<Label>& labels);
   void PaintLeader(Page& page, double x, double y, const LabelBox& box, const LabelPlace& place);
-  void PaintMarkerText(Page& page, const Label& label, const Projected& at);
+  void PaintMarkerTextsOf(Page& page, const DrawnView& drawn, const Backdrop& backdrop);
+  void PaintMarkerText(Page& page, const Label& label, const Projected& at, const Inks& inks);
 
   const DrawScene draw_scene_;
   std::unique_ptr<OverlayFonts> fonts_;

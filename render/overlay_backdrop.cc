@@ -9,11 +9,11 @@ namespace {
 // Half way between dark and light texts, 0 to 1.
 constexpr double kMiddleLightness = 0.54;
 
+}  // namespace
+
 double Lightness(const Rgb& color) {
   return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }
-
-}  // namespace
 
 const Inks& InksOn(const Rgb& behind, const PictureSpec& spec) {
   if (spec.look.is_transparent || !spec.look.background) return InksOf(spec);

@@ -15,6 +15,9 @@ namespace kinescope::render {
 /// have the colours of the theme everywhere.
 const Inks& InksOn(const Rgb& behind, const PictureSpec& spec);
 
+/// Of a colour, 0 to 1.
+double Lightness(const Rgb& color);
+
 class Backdrop {
  public:
   /// Both are borrowed. `views`: whose floor is at z = 0.

@@ -71,10 +71,11 @@ enum class LegendPlace {
 struct PictureSpec {
   int width = kDefaultPictureWidth;    // px, kMinPictureSide to kMaxPictureSide
   int height = kDefaultPictureHeight;  // px, kMinPictureSide to kMaxPictureSide
-  int supersample = 1;   // one of kSupersampleFactors: of pixels drawn, in each direction
-  std::string title;     // upper left; "": none
-  bool overlays = true;  // legend, time code, banner
-  bool lines = true;     // those of Style::kLine; false: they are left to OverlayLayer
+  int supersample = 1;        // one of kSupersampleFactors: of pixels drawn, in each direction
+  std::string title;          // upper left; "": none
+  bool overlays = true;       // legend, time code, banner
+  bool marker_texts = false;  // without overlays: those of markers and frames all the same
+  bool lines = true;          // those of Style::kLine; false: they are left to OverlayLayer
   OverlayParts parts = {};
   /// Several views in one picture, row by row (multi_view.h); they replace the camera argument.
   std::vector<Pane> panes = {};

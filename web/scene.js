@@ -407,6 +407,7 @@ export class Scene {
     const valueOf = (/** @type {string} */ property) => style.getPropertyValue(property).trim();
     const background = new THREE.Color(valueOf('--scene'));
     this.#scene.background = background;
+    this.#surroundings.setBackground(background);
     this.#scene.fog = new THREE.Fog(background, FOG.near, FOG.far);
     this.#sky.intensity = Number(valueOf('--scene-sky'));
     this.#shade.material.opacity = Number(valueOf('--scene-shadow'));

@@ -10,6 +10,8 @@ const NOTE_HEIGHT = 0.05;   // m, of a capital in the name of a missing mesh
 const CAPITAL_SHARE = 0.73; // of a font's size
 const LINE = 1.2;           // from line to line, of a font's size
 const TEXT_PIXELS = 64;     // size of the font of a label's texture
+const PANEL_OPACITY = 0.78; // behind a text, as in pictures
+const LEAST_CONTRAST = 0.3; // of a text without a panel, in lightness
 // From the axes of GLB to the world's: x forward, y left, z up.
 const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
 
@@ -22,6 +24,7 @@ export class Surroundings {
   #asked = /** @type {number|null} */ (null);  // revision
   #askAgainAt = -Infinity;  // browser's clock, ms
   #isLoading = false;
+  #lightness = 1;  // of the background of the scene
   #hidden = /** @type {readonly string[]} */ ([]);
   /** @type {THREE.Object3D[][]} */ #links = [];  // of the robots that move, by their numbers
   /** @type {readonly Pose[][]} */ #robots = [];
@@ -30,6 +33,14 @@ export class Surroundings {
   constructor(onChange) {
     this.group.quaternion.copy(WORLD_FROM_FILE);
     this.onChange = onChange;
+  }
+
+  /** Loads all again, as texts have a panel where the background is like them.
+   *  @param {THREE.Color} background  of the scene */
+  setBackground(background) {
+    const { r, g, b } = background.getRGB({ r: 0, g: 0, b: 0 }, THREE.SRGBColorSpace);
+    this.#lightness = lightnessOf([r, g, b]);
+    this.forget();
   }
 
   /** @param {readonly string[]} parts */
@@ -113,7 +124,7 @@ export class Surroundings {
     this.problems = problems;
     if (revision === null) this.#asked = null;
     if (scene !== null) {
-      scene.traverse(prepare);
+      scene.traverse((part) => prepare(part, this.#lightness));
       this.group.add(scene);
       this.#links = linksOf(scene);
       this.place(this.#robots);
@@ -156,8 +167,9 @@ const isPoints = (part) => part instanceof THREE.Points;
  *  @returns {part is THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>} */
 const isLines = (part) => part instanceof THREE.LineSegments;
 
-/** @param {THREE.Object3D} part */
-function prepare(part) {
+/** @param {THREE.Object3D} part
+ *  @param {number} lightness  of the background */
+function prepare(part, lightness) {
   if (isMesh(part)) {
     part.material.fog = false;  // only the floor ends in the distance
     part.castShadow = !part.material.transparent;
@@ -166,7 +178,7 @@ function prepare(part) {
   } else if (isLines(part)) {
     part.material.fog = false;
   } else if ('text' in part.userData) {
-    part.add(makeText(readLabelText(part.userData, 'extras')));
+    part.add(makeText(readLabelText(part.userData, 'extras'), lightness));
   }
 }
 
@@ -194,20 +206,33 @@ function dispose(part) {
   part.material.dispose();
 }
 
-/** A text that is as high as it is in the world, and in front of everything, as in pictures.
- *  @param {import('./messages.js').LabelText} label */
-function makeText({ text, height, color, opacity }) {
+/** Of a colour, 0 to 1.
+ *  @param {readonly number[]} rgb */
+const lightnessOf = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+
+/** A text that is as high as it is in the world, and in front of everything, as in pictures. RViz's are often white: where the background
+ *  is like the text, it has a panel.
+ *  @param {import('./messages.js').LabelText} label
+ *  @param {number} lightness  of the background */
+function makeText({ text, height, color, opacity }, lightness) {
   const canvas = document.createElement('canvas');
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   const font = `${TEXT_PIXELS}px "DejaVu Sans", sans-serif`;
   pen.font = font;
   const lines = text.split('\n');
-  canvas.width = Math.max(1, Math.ceil(Math.max(...lines.map((line) => pen.measureText(line).width))));
+  const margin = 0.4 * TEXT_PIXELS;
+  canvas.width = Math.ceil(Math.max(1, ...lines.map((line) => pen.measureText(line).width)) + 2 * margin);
   canvas.height = Math.ceil((1.4 + LINE * (lines.length - 1)) * TEXT_PIXELS);
+  if (Math.abs(lightnessOf(color) - lightness) < LEAST_CONTRAST) {
+    pen.fillStyle = `rgb(${lightness > 0.5 ? '23 26 31' : '255 255 255'} / ${PANEL_OPACITY * opacity})`;
+    pen.beginPath();
+    pen.roundRect(0, 0, canvas.width, canvas.height, 0.3 * TEXT_PIXELS);
+    pen.fill();
+  }
   pen.font = font;  // resizing a canvas resets its font
   pen.fillStyle = `rgb(${color.map((channel) => Math.round(255 * channel)).join(' ')} / ${opacity})`;
   pen.textBaseline = 'middle';
-  lines.forEach((line, i) => pen.fillText(line, 0, (0.7 + LINE * i) * TEXT_PIXELS));
+  lines.forEach((line, i) => pen.fillText(line, margin, (0.7 + LINE * i) * TEXT_PIXELS));
   const map = new THREE.CanvasTexture(canvas);
   map.colorSpace = THREE.SRGBColorSpace;
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, fog: false }));

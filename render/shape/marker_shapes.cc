@@ -178,9 +178,10 @@ void MarkerReader::AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerSh
   to.is_closed = to.is_closed && file.is_closed;
   const std::size_t first = mesh.positions.size();
   mesh.Append(file.mesh, place);
-  if (is_file) mesh.Paint(first, marker.color.cast<float>(), 0);
+  const bool is_tinted = !marker.mesh_has_own_colors || !marker.color.isZero();
+  const Eigen::Vector4f usual(0.8f, 0.8f, 0.8f, 1);  // of a file that has no colours, as of STL
+  if (is_file) mesh.Paint(first, is_tinted ? marker.color.cast<float>() : usual, 0);
   if (!marker.mesh_has_own_colors || !is_file) return;
-  const bool is_tinted = !marker.color.isZero();
   for (std::size_t i = 0; i < file.mesh.colors.size(); ++i) {
     const Eigen::Vector4f& color = file.mesh.colors[i];
     if (color.w() > 0) mesh.colors[first + i] = is_tinted ? Tinted(color, marker.color) : color;

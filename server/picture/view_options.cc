@@ -434,7 +434,7 @@ void ViewOptions::List(options::OptionList& option) {
          "place of the legend: over the scene, in a column to its right, in a strip under it, or "
          "none");
   option("plot", plot, "joints whose loads are plotted over time");
-  option("no_overlays", no_overlays, "no text or plot over the picture");
+  option("no_overlays", no_overlays, "no text or plot over the picture; texts of markers stay");
   ListPeopleLook(option, figure, style, loads, body_opacity);
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
@@ -515,6 +515,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   spec.supersample = *options.supersample;
   spec.title = *options.title;
   spec.overlays = !*options.no_overlays;
+  spec.marker_texts = true;  // they are part of the scene
   spec.parts = *options.overlay;
   if (options.views->has_times()) spec.parts.time = false;  // each view has its own
   // Naming joints shows the plot, unless --overlay decides.

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "render/image/compare.h"
 #include "render/renderer.h"
@@ -189,6 +191,37 @@ TEST_F(MarkerDrawing, DrawsLinesOfAPixelAtAnyDistance) {
                                        camera, spec_));
   EXPECT_LE(change.right - change.left, 1) << "straight down from the middle";
   EXPECT_EQ(change.bottom, kViewHeight - 1);
+}
+
+// The names of frames are white, as in RViz, whose background is dark.
+TEST_F(MarkerDrawing, WritesTextsThatCanBeReadOnAnyBackground) {
+  SceneMarker text = Sample(MarkerType::kText);
+  const auto darkest_and_brightest = [&](double lightness, Theme theme) {
+    text.color = {lightness, lightness, lightness, 1};
+    spec_.look.theme = theme;
+    const Image empty = Draw(Empty()), image = Draw(With({text}));
+    int least = 255, most = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      if (std::equal(&image.rgba[i], &image.rgba[i] + 4, &empty.rgba[i])) continue;
+      least = std::min<int>(least, image.rgba[i]);
+      most = std::max<int>(most, image.rgba[i]);
+    }
+    return std::pair(least, most);
+  };
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    for (const double lightness : {0.0, 1.0}) {
+      const auto [least, most] = darkest_and_brightest(lightness, theme);
+      EXPECT_GT(most - least, 100) << lightness;
+    }
+  }
+}
+
+TEST_F(MarkerDrawing, KeepsTextsWithoutOverlaysIfTold) {
+  const SceneMarker text = Sample(MarkerType::kText);
+  spec_.overlays = false;
+  EXPECT_EQ(Compare(Draw(Empty()), Draw(With({text}))).pixels, 0);
+  spec_.marker_texts = true;
+  EXPECT_GT(Compare(Draw(Empty()), Draw(With({text}))).pixels, 20);
 }
 
 TEST_F(MarkerDrawing, RejectsTooManyTrianglesByName) {

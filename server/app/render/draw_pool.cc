@@ -105,7 +105,7 @@ namespace {
 render::PictureSpec SpecOfPicture(const RenderRequest& request) {
   render::PictureSpec spec = request.spec;
   if (request.layer && *request.layer != render::LayerFormat::kPdfPage) {
-    spec.overlays = spec.lines = false;
+    spec.overlays = spec.marker_texts = spec.lines = false;
   }
   return spec;
 }

@@ -67,6 +67,20 @@ TEST(MarkerShapes, TintTheColoursOfAFile) {
       color_with({0, 0, 1, 0.5}).isApprox(Eigen::Vector4f(1.0f / 3, 0, 2.0f / 3, 0.75f), 0.01f));
 }
 
+// Many nodes ask for the colours of an STL file, which has none, and give none themselves.
+TEST(MarkerShapes, AreSeenWhereTheFileThatIsToHaveColoursHasNone) {
+  const kinescope::testing::TempFolder folder;
+  std::ofstream(folder / "plain.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  SceneMarker marker;
+  marker.type = MarkerType::kMesh;
+  marker.mesh_uri = "file://" + (folder / "plain.obj").string();
+  marker.mesh_has_own_colors = true;
+  marker.color.setZero();
+  const urdf::Mesh mesh = ShapesOf(marker).blended;
+  ASSERT_FALSE(mesh.colors.empty());
+  EXPECT_EQ(mesh.colors[0].w(), 1);
+}
+
 TEST(MarkerShapes, HaveLinesOfAPixelWithoutTriangles) {
   SceneMarker lines;
   lines.ns = "rviz/Grid";

@@ -233,7 +233,7 @@ TEST(Surroundings, HaveTheLinksOfRobotsThatMoveInTheirOwnFrames) {
   const auto writer = MakeSurroundingsWriter();
   RobotState standing = Robot(), moving = Robot();
   moving.moves = true;
-  moving.problem = "robot 'arm': 1 of 2 links have no frame in TF: hand";
+  moving.problem = "robot 'arm': 1 of 2 links have no place in TF: hand";
   for (Eigen::Isometry3d& link : moving.world_from_link) {
     link.pretranslate(Eigen::Vector3d(0, 2, 0));
   }
