@@ -41,6 +41,12 @@ struct SourceCounters {
   /// Of the samples: by how much each came later than the fastest ones of the seconds before, by
   /// the sender's clock. Empty for a source without such a clock.
   DurationHistogram delays;
+  /// Of a recording that begins later than its first sample: how far it has been passed over, ns
+  /// after that one; 0 once it begins.
+  std::int64_t passed_nanos = 0;
+  /// What is wrong with samples that were delivered, now, in sentences without a full stop: people
+  /// whose frames TF does not connect.
+  std::vector<std::string> problems;
   /// Of a ROS graph: the clocks of the nodes whose people are read.
   std::vector<NodeClock> clocks;
   /// Counters of the transport, such as "receive_buffer_bytes" or "connections_open"; empty without

@@ -33,13 +33,14 @@ double Thousandths(double value) { return std::round(value * 1e3) / 1e3; }
 
 void SetProgressForm(ProgressForm form) { FormOfAll() = form; }
 
-Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(total), form_(FormHere()) {}
+Progress::Progress(std::string what, int total, double quiet_secs)
+    : what_(std::move(what)), total_(total), quiet_secs_(quiet_secs), form_(FormHere()) {}
 
 Progress::~Progress() {
-  if (form_ == ProgressForm::kAuto && done_ > 0) std::fputc('\n', stderr);
+  if (form_ == ProgressForm::kAuto && drawn_done_ > 0) std::fputc('\n', stderr);
   try {
-    if (form_ == ProgressForm::kJson && drawn_done_ < done_) PrintJson();
+    const bool is_quiet = quiet_secs_ > 0 && drawn_done_ == 0;
+    if (form_ == ProgressForm::kJson && drawn_done_ < done_ && !is_quiet) PrintJson();
   } catch (const std::exception&) {
     // There is no memory for the last line; a destructor must not throw.
   }
@@ -56,6 +57,7 @@ void Progress::Step() {
   const auto now = Clock::now();
   const auto pause = std::chrono::milliseconds(form_ == ProgressForm::kJson ? 1000 : 100);
   if (now - drawn_ < pause && done_ != total_) return;
+  if (quiet_secs_ > 0 && secs() < quiet_secs_) return;
   drawn_ = now;
   drawn_done_ = done_;
   if (form_ == ProgressForm::kJson) {

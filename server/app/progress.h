@@ -17,8 +17,8 @@ void SetProgressForm(ProgressForm form);
 
 class Progress {
  public:
-  /// `total` 0: unknown.
-  Progress(std::string what, int total);
+  /// `total` 0: unknown. `quiet_secs`: for so long nothing is printed, as it may be done by then.
+  Progress(std::string what, int total, double quiet_secs = 0);
   ~Progress();  // ends the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -34,6 +34,7 @@ class Progress {
 
   const std::string what_;
   int total_;
+  const double quiet_secs_;
   const ProgressForm form_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point drawn_{};

@@ -251,8 +251,11 @@ std::optional<Playback> PacedSource::playback() const {
 
 SourceCounters PacedSource::counters() const {
   SourceCounters sum = earlier_;
-  AddUp(sum, source_->counters());
+  const SourceCounters now = source_->counters();
+  AddUp(sum, now);
+  sum.problems = now.problems;
   sum.samples = samples_;
+  if (!has_started_ && last_played_ < start_at_) sum.passed_nanos = last_played_;
   return sum;
 }
 

@@ -56,6 +56,7 @@ class RenderRun {
   std::vector<OutputResult> Run() {
     if (HasStills() || HasClips()) {
       progress_.emplace("pictures:", static_cast<int>(CountPictures()));
+      reading_.emplace("seconds read:", static_cast<int>(SecsBeforePictures()), /*quiet_secs=*/1);
       if (HasMoments()) {
         RenderMoments();
       } else {
@@ -181,6 +182,18 @@ class RenderRun {
     return count ? stills + clip_cameras * *count : 0;
   }
 
+  // Up to the first picture; 0: unknown.
+  double SecsBeforePictures() const {
+    if (HasMoments()) return options_.view.views->TimesInOrder().back();
+    std::optional<double> first;
+    if (HasClips()) first = Secs(grid_.start_nanos);
+    if (HasStills() && options_.moment.time) {
+      const double still = *options_.moment.time;
+      first = std::min(first.value_or(still), still);
+    }
+    return first.value_or(0);
+  }
+
   void CheckStop() const {
     if (!StopRequested()) return;
     std::string left;
@@ -202,6 +215,9 @@ class RenderRun {
     const long number = samples_++;
     if (!start_nanos_) start_nanos_ = state->stamp_nanos;
     newest_nanos_ = state->stamp_nanos;
+    for (; reading_ && read_secs_ < Secs(newest_nanos_ - *start_nanos_) - 1; ++read_secs_) {
+      reading_->Step();
+    }
     if (still_is_rendered_) return state;
     for (auto& [camera, task] : stills_) task.Remember(*state);
     if (!HasMoments() && !options_.moment.time && number == options_.moment.sample.value_or(0L)) {
@@ -255,6 +271,7 @@ class RenderRun {
         if (task.HasOutputs()) task.planner().AddMoment(*scene);
       }
     }
+    reading_.reset();
     for (auto& [camera, task] : stills_) {
       if (task.HasOutputs()) task.DrawMoments(pool_, *progress_);
     }
@@ -274,6 +291,7 @@ class RenderRun {
 
   void RenderStills(const SceneState& scene) {
     still_is_rendered_ = true;
+    reading_.reset();
     const double secs = Secs(scene.stamp_nanos - *start_nanos_);
     for (auto& [camera, task] : stills_) {
       if (task.HasOutputs()) task.Draw(scene, secs, pool_, *progress_);
@@ -282,6 +300,7 @@ class RenderRun {
 
   void RenderClips(long k, const SceneState& scene) {
     CheckStop();
+    reading_.reset();
     for (auto& [camera, task] : clips_) {
       if (task.HasOutputs()) task.Draw(k, scene, check_, pool_, *progress_);
     }
@@ -304,6 +323,8 @@ class RenderRun {
   std::optional<std::int64_t> start_nanos_;  // of the first sample
   std::int64_t newest_nanos_ = 0;            // of the last one read
   std::optional<Progress> progress_;         // once there is something to do
+  std::optional<Progress> reading_;          // up to the first picture
+  int read_secs_ = 0;                        // whole ones, of it
   long samples_ = 0;                         // read so far
   bool still_is_rendered_ = false;
   long clip_pictures_ = 0;            // of each clip, so far

@@ -25,6 +25,7 @@ std::string MostFrequentRejection(const SourceCounters& counters) {
 void MissingPoseWarning::OnCounters(const SourceCounters& counters, const std::string& source,
                                     std::int64_t now_nanos) {
   if (is_done_ || counters.samples > 0 || counters.datagrams == 0) return;
+  if (counters.passed_nanos > 0) return;
   if (!since_nanos_) since_nanos_ = now_nanos;
   if (now_nanos - *since_nanos_ < kPatienceNanos) return;
   is_done_ = true;

@@ -18,6 +18,7 @@
 #include "server/http/answer.h"
 #include "server/marks/mark_json.h"
 #include "server/picture/standing_robots.h"
+#include "server/ros/source/graph_source.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -123,6 +124,7 @@ Server::Server(const ServeConfig& config)
       is_recording_(IsFile(config) || config.stop_at),
       stops_(config.stop_at.has_value()),
       length_(LengthOf(config)),
+      start_at_(config.start_at),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
                [this](const std::shared_ptr<SceneState>& state) { OnState(state); }),
       ghost_(config.ghost, config.ghost_opacity, config.scene) {
@@ -203,10 +205,12 @@ void Server::StartPictures(const ServeConfig& config) {
 }
 
 void Server::StartControls(const ServeConfig& config) {
+  const bool is_graph = ros_bridge::IsGraphUrl(config.source_url);
   const std::string why_no_recording =
-      recorder_
-          ? ""
-          : config.source_url + ": only a live stream over UDP or TCP can be recorded (--source)";
+      recorder_ ? ""
+                : "the source " + config.source_url +
+                      (is_graph ? " is a ROS graph, which rosbag record keeps"
+                                : " is not a live stream over UDP or TCP (--source)");
   const std::string why_no_clips = clips_ ? "" : history_ ? http::kNoRenderer : http::kNoHistory;
   desk_ = std::make_unique<ControlDesk>(
       DeskParts{states_, changes_, history_.get(), marks_.get(), recordings_, recorder_.get(),
@@ -346,6 +350,7 @@ void Server::OnTime(std::int64_t now_nanos) {
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());
   counters_.Publish(counters);
+  LogPassed(*counters, now_nanos);
   stream_meter_.OnCounters(*counters, now_nanos);
   stream_.Publish(std::make_shared<const StreamHealth>(stream_meter_.health()));
   has_shown_others_ = has_shown_others_ || states_.Get()->liveness == Liveness::kNoPerson;
@@ -353,6 +358,17 @@ void Server::OnTime(std::int64_t now_nanos) {
     missing_pose_warning_.OnCounters(*counters, source_->description(), now_nanos);
   }
   crowd_warning_.OnCounters(*counters);
+}
+
+// A long recording takes its time to where it begins.
+void Server::LogPassed(const SourceCounters& counters, std::int64_t now_nanos) {
+  constexpr std::int64_t kEveryNanos = 5 * kNanosPerSecond;
+  if (counters.passed_nanos == 0 || now_nanos < passed_due_nanos_) return;
+  const bool is_first = passed_due_nanos_ == 0;
+  passed_due_nanos_ = now_nanos + (is_first ? kNanosPerSecond : kEveryNanos);
+  if (is_first) return;  // a short one is there by then
+  spdlog::info("{}: passed over {:.0f} s so far; it begins at {:.0f} s (--start_at)",
+               source_->description(), Secs(counters.passed_nanos), Secs(start_at_));
 }
 
 }  // namespace kinescope::app

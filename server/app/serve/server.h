@@ -65,6 +65,7 @@ class Server {
   void OnState(const std::shared_ptr<SceneState>& state);
   void AddGhosts(SceneState& state) const;
   void OnTime(std::int64_t now_nanos);  // between polls
+  void LogPassed(const SourceCounters& counters, std::int64_t now_nanos);
   void UpdatePlayback(bool has_ended);
   void LogStop(const Playback& playback) const;
   void OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const;
@@ -100,6 +101,8 @@ class Server {
   bool has_shown_others_ = false;  // a bag or a graph without people
   CrowdWarning crowd_warning_;
   StreamHealthMeter stream_meter_;
+  const std::int64_t start_at_;        // of a recording, ns after its first sample
+  std::int64_t passed_due_nanos_ = 0;  // when to tell next how far it has been passed over
   std::int64_t counters_due_nanos_ = 0;
   SceneBuilder builder_;
   const GhostPose ghost_;

@@ -163,6 +163,19 @@ TEST(PacedSource, MayBeginLaterInTheFirstRound) {
   EXPECT_EQ(source.playback()->round_nanos, 6'000'000);
 }
 
+TEST(PacedSource, TellsHowFarItHasBeenPassedOver) {
+  PacedSource source(std::make_unique<ShortFile>(), nullptr, 3'500'000);
+  Collector collector;
+  const auto poll = [&] { static_cast<void>(source.Poll(milliseconds(0), collector)); };
+  for (int i = 0; source.counters().passed_nanos == 0; ++i) {
+    ASSERT_LT(i, 3);
+    poll();
+  }
+  EXPECT_EQ(source.counters().passed_nanos, 2'000'000);
+  while (collector.samples.empty()) poll();
+  EXPECT_EQ(source.counters().passed_nanos, 0);
+}
+
 TEST(PacedSource, ThatEndsBeforeItBeginsSaysWhenItEnds) {
   PacedSource source(std::make_unique<ShortFile>(), nullptr, 4'500'000);
   Collector collector;

@@ -62,6 +62,15 @@ TEST(MissingPoseWarning, CountsTheTimeFromTheFirstDatagrams) {
   EXPECT_EQ(log.text(), "") << "a suit that was switched on now";
 }
 
+TEST(MissingPoseWarning, IsAbsentWhileARecordingIsPassedOver) {
+  const testing::CapturedLog log;
+  MissingPoseWarning warning;
+  SourceCounters counters = DatagramsWithoutPose();
+  counters.passed_nanos = 1;
+  for (int i = 0; i < 5; ++i) warning.OnCounters(counters, "take.bag", i * kNanosPerSecond);
+  EXPECT_EQ(log.text(), "");
+}
+
 TEST(MissingPoseWarning, IsAbsentWhileThereAreSamplesOrNoDatagrams) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
