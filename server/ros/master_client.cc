@@ -1,6 +1,7 @@
 #include "server/ros/master_client.h"
 
 #include <ros/master.h>
+#include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcClient.h>
@@ -40,6 +41,13 @@ MasterClient::MasterClient(std::string host, int port, Connection connection)
     : host_(std::move(host)), port_(port), connection_(connection) {}
 
 MasterClient::~MasterClient() = default;
+
+bool MasterClient::SetParameter(const std::string& name, const XmlRpcValue& value) {
+  XmlRpcValue arguments;
+  arguments[0] = ros::names::resolve(name);
+  arguments[1] = value;
+  return Call("setParam", arguments).code == MasterReply::Code::kGood;
+}
 
 RegistrationState MasterClient::AskRegistration(const std::string& our_uri,
                                                 std::chrono::milliseconds timeout) {

@@ -63,6 +63,9 @@ class MasterClient {
   MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
                    std::chrono::milliseconds timeout = kMasterPatience);
 
+  /// Sets a parameter; false if the master does not accept it. Private names are this node's.
+  bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
+
   /// Whether the master knows this node. It detects a master restarted under the same process id,
   /// as in a container, and one that `rosnode cleanup` made forget this node.
   /// `our_uri`: of this node's own server; "" before it exists.

@@ -8,8 +8,6 @@
 #include <kinescope/Mark.h>
 #include <ros/init.h>
 #include <ros/master.h>
-#include <ros/names.h>
-#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <rosgraph_msgs/Log.h>
@@ -32,15 +30,12 @@
 #include <utility>
 
 #include "core/system/clocks.h"
-#include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/ros/init.h"
-#include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/running.h"
 #include "server/ros/tcpros_limits.h"
 #include "server/ros/xmlrpc_limits.h"
-#include "urdf/human_urdf.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -51,10 +46,6 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr std::uint32_t kMarkQueue = 100;
-constexpr char kDescription[] = "robot_description";
-// A stream may change the body with every sample. Each one that is described has its meshes
-// written, so the newest one follows after this time.
-constexpr std::int64_t kDescribeEveryNanos = kNanosPerSecond;
 constexpr std::int64_t kReadRobotsEveryNanos = 3 * kNanosPerSecond;
 
 // A parameter of a launch file has a type, an argument does not: text that is a number becomes one.
@@ -74,15 +65,10 @@ XmlRpcValue Typed(const std::string& text) {
   return XmlRpcValue(text);
 }
 
-// A name of this computer that means another one to others.
-bool IsLoopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || StartsWith(host, "127.");
-}
-
 }  // namespace
 
 MasterRegistration::MasterRegistration(const BridgeConfig& config, InputWiring wiring)
-    : config_(config), wiring_(std::move(wiring)) {
+    : config_(config), wiring_(std::move(wiring)), descriptions_(config, master_) {
   status_.master_uri = ros::master::getURI();
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
@@ -229,9 +215,7 @@ void MasterRegistration::RegisterRegularly() {
     if (!answers || status().shutdown_requested) continue;
     if (!is_known) {
       registered_.clear();
-      described_.clear();
-      description_names_.clear();
-      told_.clear();
+      descriptions_.Forget();
       has_arguments_ = false;
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
@@ -480,8 +464,9 @@ ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool 
         }
         tf2_msgs::TFMessage message;
         if (!Decode(event.getConstMessage()->bytes, message)) return Refuse(topic, Unreadable());
-        const auto refusal = wiring_.on_transforms(message, is_static);
-        if (refusal) Refuse(topic, *refusal);
+        for (const Refusal& refusal : wiring_.on_transforms(message, is_static)) {
+          Refuse(topic, refusal);
+        }
       });
   options.callback_queue = wiring_.queue;
   return node_->subscribe(options);
@@ -520,105 +505,15 @@ bool MasterRegistration::RegisterAll() {
                      [&](const auto& each) { return add(each.first, each.second); });
 }
 
-bool MasterRegistration::SetParameter(const std::string& name, const XmlRpcValue& value) {
-  XmlRpcValue arguments;
-  arguments[0] = ros::names::resolve(name);
-  arguments[1] = value;
-  return master_.Call("setParam", arguments).code == MasterReply::Code::kGood;
-}
-
 // Stops at the first parameter that the master does not accept; the rest is tried again next time.
 void MasterRegistration::SetParameters() {
   if (!has_arguments_) {
     for (const auto& [name, value] : PrivateArguments()) {
-      if (!SetParameter("~" + name, Typed(value))) return;
+      if (!master_.SetParameter("~" + name, Typed(value))) return;
     }
     has_arguments_ = true;
   }
-  SetDescriptions();
-}
-
-// Whether another program has set it. What a Kinescope has written is taken for our own.
-bool MasterRegistration::IsOthers(const std::string& parameter, bool& answers) {
-  XmlRpcValue arguments;
-  arguments[0] = ros::names::resolve(parameter);
-  MasterReply has = master_.Call("hasParam", arguments);
-  answers = has.code == MasterReply::Code::kGood;
-  if (!answers || has.value.getType() != XmlRpcValue::TypeBoolean) return answers;
-  if (!static_cast<bool>(has.value)) return false;
-  MasterReply set = master_.Call("getParam", arguments);
-  if (set.code == MasterReply::Code::kNoAnswer && set.problem.empty()) answers = false;
-  if (set.code != MasterReply::Code::kGood) return true;  // one that is too large, for example
-  if (set.value.getType() != XmlRpcValue::TypeString) return true;
-  return !urdf::IsWrittenByKinescope(static_cast<std::string&>(set.value));
-}
-
-// Whether a Kinescope that runs beside this one has its person in it.
-bool MasterRegistration::IsOfAnotherNode(const std::string& parameter) {
-  for (const RunningNode& node : OtherNodes()) {
-    for (const RunningPerson& person : node.people) {
-      if (person.description == ros::names::resolve(parameter)) return true;
-    }
-  }
-  return false;
-}
-
-// The parameter of a URDF at this master; nullopt: the master does not answer. A robot keeps its
-// own, or gets it back if it is started after us.
-std::optional<std::string> MasterRegistration::DescriptionOf(const std::string& prefix) {
-  if (prefix.empty() && !config_.description.empty()) {
-    return description_names_[prefix] = config_.description;
-  }
-  const auto known = description_names_.find(prefix);
-  if (known != description_names_.end()) {
-    bool answers = true;
-    const bool is_others = described_.count(known->second) != 0 && IsOthers(known->second, answers);
-    if (!answers) return std::nullopt;
-    if (!is_others) return known->second;
-    described_.erase(known->second);
-    description_names_.erase(known);
-  }
-  const std::string usual = prefix + kDescription;
-  for (const std::string& name :
-       {usual, prefix + "human_description", "~" + prefix + "human_description"}) {
-    bool answers = true;
-    const bool is_others = IsOthers(name, answers);
-    if (!answers) return std::nullopt;
-    if (is_others || IsOfAnotherNode(name)) continue;
-    if (name != usual) {
-      spdlog::warn(
-          "the parameter {} belongs to another program and stays as it is: the URDF of the person "
-          "is in {} (--description sets another name)",
-          ros::names::resolve(usual), ros::names::resolve(name));
-    }
-    return description_names_[prefix] = name;
-  }
-  return description_names_[prefix] = "~" + prefix + "human_description";
-}
-
-// RViz on another computer cannot read the files of this one.
-std::string MasterRegistration::UrdfOf(const PersonModel& model) const {
-  if (!model.mesh_files) return model.urdf_xml;
-  const std::string& host = ros::network::getHost();
-  const std::string& folder =
-      model.human.mesh_folder.empty() ? model.human.tool_folder : model.human.mesh_folder;
-  const std::string set = folder.substr(folder.rfind('/') + 1);
-  const int port =
-      config_.serve_meshes && !IsLoopback(host) ? config_.serve_meshes(set, model.mesh_files) : 0;
-  if (port == 0) {
-    model.mesh_files->Provide();
-    return model.urdf_xml;
-  }
-  urdf::HumanModel human = model.human;
-  for (std::string* const place : {&human.mesh_folder, &human.tool_folder}) {
-    if (!place->empty()) *place = fmt::format("http://{}:{}/{}", host, port, set);
-  }
-  return urdf::WriteUrdf(human);
-}
-
-// Stops at the first that the master does not accept; the rest is tried again next time.
-void MasterRegistration::SetDescriptions() {
-  std::map<std::string, std::shared_ptr<const PersonModel>> models;  // by prefix
+  DescriptionParameters::Models models;
   bool has_met_nobody = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -627,83 +522,7 @@ void MasterRegistration::SetDescriptions() {
       if (slot.model != nullptr) models[slot.prefix] = slot.model;
     }
   }
-  if (has_met_nobody && config_.initial_model) {
-    const std::optional<std::string> name = DescriptionOf("");
-    if (!name) return;
-    if (described_.count(*name) == 0) {
-      if (!SetParameter(*name, UrdfOf(*config_.initial_model))) return;
-      described_[*name] = {0, 0, config_.initial_model->mesh_files};
-    }
-  }
-  std::map<std::string, std::string> names_of_models;
-  if (models.empty() && config_.initial_model) {
-    names_of_models[""] = config_.initial_model->human.model_name;
-  }
-  for (const auto& [prefix, model] : models) {
-    const std::optional<std::string> name = DescriptionOf(prefix);
-    if (!name) return;
-    names_of_models[prefix] = model->human.model_name;
-    const auto set = described_.find(*name);
-    const std::int64_t now = MonotonicNanos();
-    if (set != described_.end() && (set->second.revision == model->revision ||
-                                    now - set->second.set_nanos < kDescribeEveryNanos)) {
-      continue;
-    }
-    if (!SetParameter(*name, UrdfOf(*model))) return;
-    described_[*name] = {model->revision, now, model->mesh_files};
-  }
-  TellWhatIsPublished(names_of_models);
-}
-
-// For programs that show it (running.h). `models`: by prefix.
-void MasterRegistration::TellWhatIsPublished(const std::map<std::string, std::string>& models) {
-  XmlRpcValue published, people;
-  people.setSize(static_cast<int>(models.size()));
-  int i = 0;
-  for (const auto& [prefix, model] : models) {
-    XmlRpcValue& person = people[i++];
-    person["model"] = model;
-    person["description"] = ros::names::resolve(description_names_[prefix]);
-    person["topics"] = ros::this_node::getName() + "/" + prefix;
-  }
-  published["reference_frame"] = config_.reference_frame;
-  published["tf"] = config_.tf;
-  published["people"] = people;
-  const std::string text = published.toXml();
-  if (text == told_ || !SetParameter("~published", published)) return;
-  told_ = text;
-  if (config_.tf != "none") WarnOfTheSameFrames(models);
-}
-
-// The other Kinescope nodes; none if the master has just gone.
-std::vector<RunningNode> MasterRegistration::OtherNodes() {
-  std::vector<RunningNode> nodes;
-  try {
-    nodes = FindRunningNodes();
-  } catch (const UsageError&) {
-  }
-  const auto is_this = [](const RunningNode& node) {
-    return node.name == ros::this_node::getName();
-  };
-  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_this), nodes.end());
-  return nodes;
-}
-
-// A frame with two publishers jumps between two poses.
-void MasterRegistration::WarnOfTheSameFrames(const std::map<std::string, std::string>& models) {
-  for (const RunningNode& node : OtherNodes()) {
-    if (!node.has_frames) continue;
-    for (const RunningPerson& person : node.people) {
-      const bool is_same = std::any_of(models.begin(), models.end(), [&](const auto& ours) {
-        return ours.second == person.model;
-      });
-      if (!is_same || !twins_.insert(node.name).second) continue;
-      spdlog::warn(
-          "the node {} publishes the frames of a person called {}, too: in TF that person jumps "
-          "between two poses; start one of the nodes with another --model_name, or with --tf=none",
-          node.name, person.model);
-    }
-  }
+  descriptions_.Set(models, has_met_nobody);
 }
 
 void MasterRegistration::SetReachable(bool reachable) {

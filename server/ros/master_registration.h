@@ -26,6 +26,7 @@
 
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
+#include "server/ros/description_parameters.h"
 #include "server/ros/force_inbox.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
@@ -34,7 +35,6 @@
 #include "server/ros/refusal.h"
 #include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
-#include "server/ros/running.h"
 
 namespace kinescope::ros_bridge {
 
@@ -56,8 +56,8 @@ struct SensorTopics {
 struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // must outlive the registration
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
-  /// Of other nodes; returns why it does not use one of them.
-  std::function<std::optional<Refusal>(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
+  /// Of other nodes; returns why it does not use some of them.
+  std::function<std::vector<Refusal>(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;
   std::shared_ptr<MarkerListener> markers;               // null: no marker topics
   std::shared_ptr<RobotInbox> robots;                    // null: no robots
   std::function<void(const std::string& text)> on_mark;  // of `~mark`
@@ -131,24 +131,8 @@ class MasterRegistration {
   ros::Publisher Topic(const std::string& name, Latch latch = Latch::kNo);
   bool RegisterAll();
   void SetParameters();
-  void SetDescriptions();
-  bool IsOthers(const std::string& parameter, bool& answers);
-  bool IsOfAnotherNode(const std::string& parameter);
-  static std::vector<RunningNode> OtherNodes();
-  std::optional<std::string> DescriptionOf(const std::string& prefix);
-  std::string UrdfOf(const PersonModel& model) const;
-  void TellWhatIsPublished(const std::map<std::string, std::string>& models);
-  void WarnOfTheSameFrames(const std::map<std::string, std::string>& models);
-  bool SetParameter(const std::string& name, const XmlRpc::XmlRpcValue& value);
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
-
-  // A description parameter that was set.
-  struct Description {
-    std::uint64_t revision = 0;              // 0: of the initial model
-    std::int64_t set_nanos = 0;              // monotonic clock
-    std::shared_ptr<const MeshFiles> files;  // RViz reads them whenever it likes
-  };
 
   const BridgeConfig& config_;
   const InputWiring wiring_;
@@ -166,6 +150,7 @@ class MasterRegistration {
 
   // Used by the registration thread only.
   MasterClient master_;
+  DescriptionParameters descriptions_;
   std::string master_problem_;     // that was logged last
   std::optional<int> master_pid_;  // process id of the master that the following members refer to
   std::unique_ptr<ros::NodeHandle> node_;  // private names; null until a master has answered
@@ -177,15 +162,11 @@ class MasterRegistration {
   std::vector<ros::Subscriber> markers_;              // registered at this master
   std::int64_t markers_since_nanos_ = 0;
   bool has_looked_for_topics_ = false;
-  std::vector<ros::Subscriber> joint_states_;             // registered at this master
-  std::int64_t robots_due_nanos_ = 0;                     // monotonic clock
-  std::optional<ros::Subscriber> marks_;                  // registered at this master
-  std::unique_ptr<OrderServices> orders_;                 // null until a master has answered
-  bool orders_are_offered_ = false;                       // at this master
-  std::map<std::string, std::string> description_names_;  // by prefix, at this master
-  std::map<std::string, Description> described_;          // by name of the parameter
-  std::set<std::string> twins_;    // nodes with the same frames, of which it was warned
-  std::string told_;               // content of `~published` at this master
+  std::vector<ros::Subscriber> joint_states_;  // registered at this master
+  std::int64_t robots_due_nanos_ = 0;          // monotonic clock
+  std::optional<ros::Subscriber> marks_;       // registered at this master
+  std::unique_ptr<OrderServices> orders_;      // null until a master has answered
+  bool orders_are_offered_ = false;            // at this master
   bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
   bool was_registered_ = false;    // registered at least once, at any master
   bool master_forgot_us_ = false;  // and still does: then it is not said each time
