@@ -62,8 +62,9 @@ struct ArrowStyle {
 
 /// Poses along a path, if they are shown.
 struct PathPoses {
-  std::optional<double> size_m;  // length of their axes or arrows
-  std::optional<Rgb> color;      // of arrows
+  std::optional<double> size_m;   // length of their axes or arrows
+  std::optional<double> width_m;  // of axes
+  std::optional<Rgb> color;       // of arrows
 };
 
 /// Every frame of TF: axes with the length `size_m`, a name in `color` and an arrow to its parent.

@@ -10,10 +10,6 @@ constexpr std::array<const char*, 12> kNames = {
     "arrow",     "cube",        "sphere", "cylinder", "line strip", "line list",
     "cube list", "sphere list", "points", "text",     "mesh",       "triangle list"};
 
-bool IsNear(const Eigen::Vector3d& point) {
-  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
-}
-
 std::optional<std::string> FindPointDefect(const SceneMarker& marker) {
   const std::size_t count = marker.points.size();
   const auto have = [&](const char* need) {
@@ -44,7 +40,7 @@ std::optional<std::string> FindPointDefect(const SceneMarker& marker) {
     default: break;
   }
   for (const Eigen::Vector3d& point : marker.points) {
-    if (!IsNear(point)) return "a point is not finite, or is beyond 100 km";
+    if (!IsWithinReach(point)) return "a point is not finite, or is beyond 100 km";
   }
   return std::nullopt;
 }
@@ -78,7 +74,7 @@ int NeededSizes(const SceneMarker& marker) {
 }
 
 std::optional<std::string> FindSizeDefect(const SceneMarker& marker) {
-  if (!IsNear(marker.scale)) return "its scale is not finite, or is beyond 100 km";
+  if (!IsWithinReach(marker.scale)) return "its scale is not finite, or is beyond 100 km";
   // A mesh may be mirrored.
   const bool may_mirror =
       marker.type == MarkerType::kMesh || marker.type == MarkerType::kTriangleList;
@@ -105,6 +101,10 @@ std::optional<std::string> FindNameDefect(const SceneMarker& marker) {
 
 }  // namespace
 
+bool IsWithinReach(const Eigen::Vector3d& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
+}
+
 const char* Name(MarkerType type) {
   const auto index = static_cast<std::size_t>(type);
   return index < kNames.size() ? kNames[index] : "unknown";
@@ -119,7 +119,7 @@ std::optional<MarkerDefect> FindDefect(const SceneMarker& marker) {
   if (marker.type != MarkerType::kText && !marker.text.empty()) {
     return MarkerDefect{"its history", marker.text};
   }
-  if (!IsNear(marker.pose.position)) {
+  if (!IsWithinReach(marker.pose.position)) {
     return MarkerDefect{"its position", "its position is not finite, or is beyond 100 km"};
   }
   if (!turn.coeffs().allFinite() || std::abs(turn.norm() - 1) > 1e-3) {

@@ -69,6 +69,9 @@ constexpr std::size_t kMaxMarkerPoints = 100'000;  // per marker
 constexpr std::size_t kMaxMarkerText = 1000;       // bytes
 constexpr double kFarthestMarker = 1e5;  // m; limit of the distance from the origin and of any size
 
+/// False of what is not finite, too.
+[[nodiscard]] bool IsWithinReach(const Eigen::Vector3d& point);
+
 /// Why a marker cannot be rendered.
 struct MarkerDefect {
   const char* kind;  // "its scale", from a fixed set

@@ -17,10 +17,12 @@ export function problemLines(diagnostics, failedMeshes, notShown = []) {
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
   for (const problem of notShown) lines.push(`Missing or replaced in the 3-D view: ${problem}`);
-  for (const { warning } of stream?.clocks ?? []) {
-    if (warning !== '') lines.push(`${warning[0].toUpperCase()}${warning.slice(1)}.`);
-  }
+  const warnings = (stream?.clocks ?? []).map((clock) => clock.warning).filter((warning) => warning !== '');
+  for (const text of [...warnings, ...source?.problems ?? []]) lines.push(`${text[0].toUpperCase()}${text.slice(1)}.`);
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
+  if (source?.passed_secs) {
+    lines.push(`The recording is passed over up to the moment at which it is to begin: ${Math.round(source.passed_secs)} s so far`);
+  }
   if (source?.transport?.ros_master_answers === 0) {
     const where = ros?.master_uri ? ` at ${ros.master_uri}` : '';
     lines.push(`No ROS master answers${where}: start roscore, or set ROS_MASTER_URI for the server.`);

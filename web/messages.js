@@ -280,6 +280,7 @@ export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
   source: optional(object({
     left_out: optional(listOf(readLeftOut)), transport: optional(object({ ros_master_answers: optional(number) })),
+    problems: optional(listOf(string)), passed_secs: optional(number),
   })),
   stream: optional(orNull(object({ clocks: listOf(readNodeClock) }))),
   ros: optional(orNull(object({

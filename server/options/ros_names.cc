@@ -114,14 +114,15 @@ bool TakeTurnCovariance(const std::string& key, const std::string& text,
   return *number <= kLargestCovarianceScale;
 }
 
-// "pose_size=0.3", "pose_color=#ff55ff" of a path.
+// "pose_size=0.3", "pose_width=0.03", "pose_color=#ff55ff" of a path.
 bool TakePoses(const std::string& key, const std::string& text, PathPoses& poses) {
   if (key == "pose_color") {
     poses.color = ColorFromHex(text);
     return poses.color.has_value();
   }
-  poses.size_m = options::ParseNumber(text);
-  return poses.size_m && *poses.size_m >= kSmallestShown && *poses.size_m <= kLargestShown;
+  std::optional<double>& metres = key == "pose_width" ? poses.width_m : poses.size_m;
+  metres = options::ParseNumber(text);
+  return metres && *metres >= kSmallestShown && *metres <= kLargestShown;
 }
 
 // "head=0.3", "head_width=0.1", "shaft_width=0.05" of arrows of poses.
@@ -252,7 +253,8 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.has_array = text == "on";
     return text == "on" || text == "off";
   }
-  if (is_one_of({"pose_size", "pose_color"})) return TakePoses(key, text, style.poses);
+  if (is_one_of({"pose_size", "pose_width", "pose_color"}))
+    return TakePoses(key, text, style.poses);
   if (key == "handles") {
     style.has_handles = text == "on";
     return text == "on" || text == "off";

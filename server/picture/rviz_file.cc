@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -65,12 +66,13 @@ class RvizReader {
     if (!manager.IsDefined() || !manager.IsMap()) {
       throw UsageError(path_ + ": is no configuration of RViz: it has no 'Visualization Manager'");
     }
+    NameOtherThanMaps(manager, {"Global Options", "Views"});
     ReadGlobalOptions(manager);
     ReadTools(Member(manager, "Tools"));
     ReadDisplays(Member(manager, "Displays"), BoolOf(manager, "Enabled", true));
     NameRingsWithoutRobots();
     SetParts(manager);
-    ReadView(manager);
+    ReadView(manager, /*is_whole=*/Member(root, "Window Geometry").IsDefined());
     ReadTime(Member(root, "Panels"));
     return std::move(picture_);
   }
@@ -111,9 +113,22 @@ class RvizReader {
     }
   }
 
+  void NameOtherThanMaps(const YAML::Node& map, std::initializer_list<const char*> names) {
+    for (const char* const name : names) {
+      const YAML::Node member = Member(map, name);
+      const bool is_one = !member.IsDefined() || member.IsNull() || member.IsMap();
+      if (!is_one) Remark(member, fmt::format("{} is no map: nothing of it is taken", name));
+    }
+  }
+
   void ReadDisplays(const YAML::Node& displays, bool is_on) {
-    if (!displays.IsDefined() || !displays.IsSequence()) return;
+    if (!displays.IsDefined() || displays.IsNull()) return;
+    if (!displays.IsSequence()) return Remark(displays, "Displays is no list: none is drawn");
     for (const YAML::Node& display : displays) {
+      if (!display.IsMap()) {
+        Remark(display, "an entry of Displays that is no map is left out");
+        continue;
+      }
       const std::string kind = TextOf(display, "Class", "");
       RefuseOther(display, kind);
       const bool is_shown = is_on && BoolOf(display, "Enabled", BoolOf(display, "Value", false));
@@ -558,12 +573,18 @@ class RvizReader {
     if (has_frames_) Set("show", "link_frames", line);  // of a source without TF
   }
 
-  void ReadView(const YAML::Node& manager) {
+  // `is_whole`: RViz writes more after it.
+  void ReadView(const YAML::Node& manager, bool is_whole) {
     const YAML::Node current = Member(Member(manager, "Views"), "Current");
     const YAML::Node& place = current.IsDefined() ? current : manager;
     RefuseOther(place, TextOf(current, "Class", ""));
     const rviz::View view = rviz::ViewOf(current, height_px_);
-    if (!view.why_not_as_saved.empty()) Remark(place, view.why_not_as_saved);
+    if (!view.why_not_as_saved.empty()) {
+      const bool is_cut = !is_whole && TextOf(current, "Class", "").empty();
+      Remark(place,
+             view.why_not_as_saved +
+                 (is_cut ? "; the file may be cut off: RViz ends it with Window Geometry" : ""));
+    }
     if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, kFarthestCamera) > kNearest) {
       Remark(place, "Near Clip Distance is not taken: what is nearer is drawn, too");
     }

@@ -67,10 +67,8 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
     return;
   }
   // The first model is that of the people.
-  if (robots.front().option.find("@tf:") != std::string::npos) {
-    spdlog::info("{}:{}: {} is taken for the people; if it is a robot, give its URDF as --robot",
-                 file, robots.front().line, robots.front().display);
-  }
+  spdlog::info("{}:{}: {} is taken for the people; if it is a robot, give its URDF as --robot",
+               file, robots.front().line, robots.front().display);
   for (std::size_t i = 1; i < robots.size(); ++i) {
     if (ModelOf(robots[i]) == ModelOf(robots.front())) continue;
     spdlog::warn("{}:{}: {} is another model: give the URDF of a robot as --robot", file,

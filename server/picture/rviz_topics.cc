@@ -324,9 +324,7 @@ class StyleReader {
     if (poses == "Axes") {
       Add("shape=axes");
       length = Metres(display_, "Length", 0.3);
-      if (NumberOf(display_, "Radius", 0.03, 0, kLargestShown) != 0.03) {
-        Remark("Radius is not taken: axes are as wide as the line");
-      }
+      AddMetres("pose_width=", display_, "Radius", 0.03);  // RViz's is a diameter
     } else if (poses == "Arrows") {
       Add("shape=arrows");
       length = AddArrowParts(display_, {0.1, 0.1, 0.2, 0.3}, "Shaft Diameter", "Head Diameter");

@@ -48,6 +48,22 @@ std::string_view WithoutModel(std::string_view frame, const std::string& model) 
   return has_model ? frame.substr(model.size() + 1) : frame;
 }
 
+// The link of the person that a frame hangs on, as a handle that is fixed to a hand.
+std::optional<int> SegmentAbove(const std::string& frame, const std::string& model,
+                                const TfTree& tf) {
+  constexpr int kDeepest = 1000;  // TF may have a loop
+  const std::string* above = &frame;
+  for (int depth = 0; depth < kDeepest && !above->empty(); ++depth) {
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      if (*above == urdf::LinkName(model, segment)) return segment;
+    }
+    const auto found = tf.frames().find(*above);
+    if (found == tf.frames().end()) break;
+    above = &found->second.parent;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TfTree::TfTree() {
@@ -107,16 +123,28 @@ void TfTree::Note(const std::string& frame, const geometry_msgs::TransformStampe
   frames_.try_emplace(known.parent, TreeFrame{known.parent, "", 0});
 }
 
-std::optional<Refusal> TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
-  std::optional<Refusal> first;
+std::vector<Refusal> TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
+  constexpr std::size_t kMostSkipped = 1000;
+  std::vector<Refusal> all;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const char* const why = Take(transform, is_static);
-    if (why == nullptr || first) continue;
-    first = Refusal{why, fmt::format("a transform {}: '{}' in '{}'", why,
-                                     transform.child_frame_id.substr(0, kMostOfName),
-                                     transform.header.frame_id.substr(0, kMostOfName))};
+    if (why == nullptr) continue;
+    if (skipped_.size() < kMostSkipped && transform.child_frame_id.size() <= kLongestFrameName) {
+      skipped_[WithoutSlash(transform.child_frame_id)] = why;
+    }
+    const bool is_known =
+        std::any_of(all.begin(), all.end(), [&](const Refusal& each) { return each.kind == why; });
+    if (is_known) continue;
+    all.push_back({why, fmt::format("a transform {}: '{}' in '{}'", why,
+                                    transform.child_frame_id.substr(0, kMostOfName),
+                                    transform.header.frame_id.substr(0, kMostOfName))});
   }
-  return first;
+  return all;
+}
+
+std::string TfTree::WhySkipped(const std::string& frame) const {
+  const auto found = skipped_.find(frame);
+  return found == skipped_.end() || frames_.count(frame) > 0 ? "" : found->second;
 }
 
 std::optional<FramePlace> TfTree::Find(const std::string& target, const std::string& frame,
@@ -150,21 +178,20 @@ std::optional<FoundFrame> FindFrame(const std::string& frame, std::int64_t stamp
       return FoundFrame{body.links[At(segment)], true};
     }
   }
-  if (name.empty()) return std::nullopt;
+  if (name.empty() || !tf.Knows(name)) return std::nullopt;
   if (const auto place = tf.Find(reference_frame, name, stamp_nanos)) {
     return FoundFrame{place->pose, false, place->is_early};
   }
-  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {  // a handle fixed to a hand
-    const auto in_link = tf.Find(urdf::LinkName(model, segment), name, stamp_nanos);
-    if (!in_link) continue;
-    const urdf::Pose& link_pose = body.links[At(segment)];
-    const urdf::Pose& in_hand = in_link->pose;
-    return FoundFrame{{link_pose.position + link_pose.orientation * in_hand.position,
-                       link_pose.orientation * in_hand.orientation},
-                      false,
-                      in_link->is_early};
-  }
-  return std::nullopt;
+  const std::optional<int> segment = SegmentAbove(name, model, tf);
+  if (!segment) return std::nullopt;
+  const auto in_link = tf.Find(urdf::LinkName(model, *segment), name, stamp_nanos);
+  if (!in_link) return std::nullopt;
+  const urdf::Pose& link_pose = body.links[At(*segment)];
+  const urdf::Pose& in_hand = in_link->pose;
+  return FoundFrame{{link_pose.position + link_pose.orientation * in_hand.position,
+                     link_pose.orientation * in_hand.orientation},
+                    false,
+                    in_link->is_early};
 }
 
 }  // namespace kinescope::ros_bridge

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "core/scene_state.h"
 #include "server/ros/names.h"
@@ -43,16 +44,19 @@ class TfTree {
   TfTree();
 
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
-  /// an invalid quaternion) or older than all that are kept, and returns why it skipped the first
-  /// one. If nothing else comes of a frame, its time was set back: what was kept of it is forgotten
-  /// then.
-  std::optional<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
+  /// an invalid quaternion) or older than all that are kept, and returns why: one for each kind. If
+  /// nothing else comes of a frame, its time was set back: what was kept of it is forgotten then.
+  std::vector<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Whether `frame` is among those of other nodes.
   bool Knows(const std::string& frame) const { return buffer_._frameExists(frame); }
 
   /// All of which something was heard, and their parents, by name, in no order.
   const std::unordered_map<std::string, TreeFrame>& frames() const { return frames_; }
+
+  /// Why the transforms of a frame that is not among them were skipped, as "with a number that is
+  /// not finite"; "": none has come, or it is among them.
+  std::string WhySkipped(const std::string& frame) const;
 
   /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
   std::optional<FramePlace> Find(const std::string& target, const std::string& frame,
@@ -69,8 +73,9 @@ class TfTree {
     int too_old_in_a_row = 0;  // refused since
   };
   tf2::BufferCore buffer_;
-  std::unordered_map<std::string, TreeFrame> frames_;  // by name, as tf2 has them
-  std::unordered_map<std::string, Moving> moving_;     // those that are not static
+  std::unordered_map<std::string, TreeFrame> frames_;     // by name, as tf2 has them
+  std::unordered_map<std::string, Moving> moving_;        // those that are not static
+  std::unordered_map<std::string, const char*> skipped_;  // why, by name, of the first ones
 };
 
 /// The person at the sensors, as in the newest sample. World frame, metres.

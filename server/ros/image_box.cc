@@ -13,7 +13,6 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr std::int64_t kPlaceCameraEveryNanos = 16'000'000;
-constexpr std::size_t kLongestCameraFrame = 200;  // bytes, in a message
 
 bool AreSame(const ImageCamera& a, const ImageCamera& b) {
   return a.width == b.width && a.height == b.height && a.focal_px == b.focal_px &&
@@ -78,12 +77,12 @@ void ImageBox::Place(std::size_t topic, Shown& shown, const FindFrame& find) {
     if (!shown.lost_nanos) shown.lost_nanos = shown.looked_nanos;
     const bool is_for_long = shown.looked_nanos - *shown.lost_nanos >= kNanosPerSecond;
     if (!is_for_long || std::exchange(shown.is_told, true)) return;
-    lost_.push_back({topic, "the scene is not drawn over its pictures: " +
-                                (calibration == calibrations_.end()
-                                     ? "no calibration on camera_info beside it"
-                                     : fmt::format("unknown frame '{}'",
-                                                   PrintableLine(calibration->second.frame.substr(
-                                                       0, kLongestCameraFrame))))});
+    const std::string what = "the scene is not drawn over its pictures";
+    if (calibration == calibrations_.end()) {
+      lost_.push_back({topic, what + ": no calibration on camera_info beside it", "", ""});
+    } else {
+      lost_.push_back({topic, what, calibration->second.frame, ""});
+    }
     return;
   }
   shown.lost_nanos.reset();
@@ -106,7 +105,7 @@ ImageList ImageBox::images() const {
   return all;
 }
 
-std::vector<ImageBox::Lost> ImageBox::TakeLost() { return std::exchange(lost_, {}); }
+std::vector<WithoutPlace> ImageBox::TakeLost() { return std::exchange(lost_, {}); }
 
 std::string WithoutTransport(const std::string& topic) {
   constexpr std::string_view kTransport = "/compressed";

@@ -16,6 +16,7 @@
 #include "core/graph_view.h"
 #include "server/ros/calibration.h"
 #include "server/ros/force_input.h"
+#include "server/ros/frame_ways.h"
 
 namespace kinescope::ros_bridge {
 
@@ -39,13 +40,9 @@ class ImageBox {
   bool TakeChanged() { return std::exchange(has_changed_, false); }
   ImageList images() const;
 
-  /// A scene that is not drawn over the images of `topic`, because its camera has had no
+  /// Scenes that are not drawn over the images of a topic, because its camera has had no
   /// calibration or no place for a second. Once for each topic.
-  struct Lost {
-    std::size_t topic = 0;
-    std::string text;
-  };
-  std::vector<Lost> TakeLost();
+  std::vector<WithoutPlace> TakeLost();
 
  private:
   struct Shown {
@@ -60,7 +57,7 @@ class ImageBox {
 
   std::map<std::size_t, Shown> shown_;
   std::map<std::size_t, Calibration> calibrations_;
-  std::vector<Lost> lost_;
+  std::vector<WithoutPlace> lost_;
   bool has_changed_ = false;
 };
 

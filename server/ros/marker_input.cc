@@ -169,9 +169,7 @@ bool MarkerStore::IsHeld(Entry& entry, const FramePlace& place, std::int64_t now
     return false;
   }
   if (!entry.held_nanos || now_nanos < *entry.held_nanos) entry.held_nanos = now_nanos;
-  const std::int64_t lives =
-      entry.dies_nanos == 0 ? 2 * kLongestHold : entry.dies_nanos - entry.came_nanos;
-  if (now_nanos - *entry.held_nanos < std::min(kLongestHold, lives / 2)) return true;
+  if (now_nanos - *entry.held_nanos < kLongestHold) return true;
   entry.held_nanos.reset();
   entry.gave_up_nanos = now_nanos;
   return false;
@@ -243,7 +241,11 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
     return false;  // it stays where it was, or has no place yet
   }
   if (!place) place.emplace();
+  const bool has_waited = entry.is_new && entry.held_nanos;
   if (IsHeld(entry, *place, now_nanos)) return PlaceWaiting(entry, frames, now_nanos);
+  if (has_waited && entry.dies_nanos != 0) {  // it lives from now on, as in RViz
+    entry.dies_nanos += now_nanos - entry.came_nanos;
+  }
   StopWaiting(entry, entry.waiting.size());
   entry.is_new = false;
   entry.is_early = place->is_early;
@@ -265,7 +267,8 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
   FrameCache frames(find_frame);
   for (auto it = entries_.begin(); it != entries_.end();) {
     Entry& entry = it->second;
-    if (entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
+    const bool waits = entry.is_new && entry.held_nanos;
+    if (!waits && entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
       Release(entry);
       changed = changed || entry.placed;
       it = entries_.erase(it);
@@ -314,21 +317,17 @@ std::string MarkerStore::FirstFrame() const {
   return found == entries_.end() ? "" : found->second.frame;
 }
 
-MarkerStore::Lost MarkerStore::LostOf(const Key& key, const Entry& entry) {
-  const std::string unknown = fmt::format("frame '{}' is not known yet", entry.frame);
-  if (!entry.is_of_frame) {
-    return {std::get<0>(key), fmt::format("marker {}: {}", IdentityOf(*entry.shape), unknown)};
-  }
-  const bool is_grid = entry.shape->ns == kNamespaceOfGrids;
-  return {std::get<0>(key),
-          fmt::format("{}: {}{}", is_grid ? "a grid" : "axes", unknown,
-                      entry.stands_in_scene ? "; it stands at the origin of the scene" : "")};
+WithoutPlace MarkerStore::LostOf(const Key& key, const Entry& entry) {
+  const std::size_t topic = std::get<0>(key);
+  if (!entry.is_of_frame) return {topic, "marker " + IdentityOf(*entry.shape), entry.frame, ""};
+  return {topic, entry.shape->ns == kNamespaceOfGrids ? "a grid" : "axes", entry.frame,
+          entry.stands_in_scene ? "; it stands at the origin of the scene" : ""};
 }
 
-std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
+std::vector<WithoutPlace> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
 
-std::vector<MarkerStore::Lost> MarkerStore::Unplaced() const {
-  std::vector<Lost> all;
+std::vector<WithoutPlace> MarkerStore::Unplaced() const {
+  std::vector<WithoutPlace> all;
   std::set<std::pair<std::size_t, std::string>> known;
   for (const auto& [key, entry] : entries_) {
     if (!entry.is_lost || !known.emplace(std::get<0>(key), entry.frame).second) continue;

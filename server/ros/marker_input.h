@@ -19,6 +19,7 @@
 #include "core/graph_view.h"
 #include "core/scene_marker.h"
 #include "server/ros/force_input.h"
+#include "server/ros/frame_ways.h"
 #include "server/ros/marker_message.h"
 
 namespace kinescope::ros_bridge {
@@ -67,15 +68,10 @@ class MarkerStore {
   /// All markers with a known frame, in the order of topic, namespace and id.
   const Markers& markers() const { return placed_; }
 
-  /// Markers with an unknown frame: "walls/3 in frame 'map'", by topic; the newest message only.
-  struct Lost {
-    std::size_t topic;
-    std::string text;
-  };
   /// Markers that lost their place, or were added without one, since the last call.
-  [[nodiscard]] std::vector<Lost> TakeLost();
+  [[nodiscard]] std::vector<WithoutPlace> TakeLost();
   /// Those that have no place now; one for each topic and frame.
-  [[nodiscard]] std::vector<Lost> Unplaced() const;
+  [[nodiscard]] std::vector<WithoutPlace> Unplaced() const;
 
  private:
   using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, id
@@ -115,7 +111,7 @@ class MarkerStore {
   void Release(Entry& entry);
   bool PlaceWaiting(Entry& entry, FrameCache& frames, std::int64_t now_nanos);
   static bool PutAt(Entry& entry, const Waiting& message, const urdf::Pose& frame);
-  static Lost LostOf(const Key& key, const Entry& entry);
+  static WithoutPlace LostOf(const Key& key, const Entry& entry);
 
   std::map<Key, Entry> entries_;
   std::size_t points_ = 0;          // in all entries
@@ -124,7 +120,7 @@ class MarkerStore {
   std::int64_t next_move_nanos_ = 0;   // monotonic clock; of markers locked to their frame
   std::int64_t next_retry_nanos_ = 0;  // monotonic clock; of markers without a place
   Markers placed_;
-  std::vector<Lost> lost_;
+  std::vector<WithoutPlace> lost_;
 };
 
 }  // namespace kinescope::ros_bridge

@@ -41,10 +41,6 @@ std::optional<std::string> FindExcess(const Marker& message) {
   return std::nullopt;
 }
 
-bool IsNear(const Eigen::Vector3d& point) {
-  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
-}
-
 // As many points belong together.
 std::size_t PointsOfOne(MarkerType type) {
   return type == MarkerType::kLineList ? 2 : type == MarkerType::kTriangleList ? 3 : 1;
@@ -59,7 +55,7 @@ void DropFarPoints(SceneMarker& marker) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < count; i += together) {
     const auto first = marker.points.begin() + at(i);
-    if (!std::all_of(first, first + at(together), IsNear)) continue;
+    if (!std::all_of(first, first + at(together), IsWithinReach)) continue;
     for (std::size_t k = i; k < i + together; ++k, ++kept) {
       marker.points[kept] = marker.points[k];
       if (has_colors) marker.colors[kept] = marker.colors[k];

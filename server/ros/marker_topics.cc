@@ -184,19 +184,28 @@ void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
 // A frame may come a little later than what stands in it.
 void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
   constexpr std::int64_t kEveryNanos = 5'000'000'000;
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMostOfTopic = 3, kMostWarnings = 60;
   if (monotonic_nanos - looked_nanos_ < kEveryNanos) return;
   looked_nanos_ = monotonic_nanos;
   std::set<std::string> unplaced;
-  for (const MarkerStore::Lost& lost : store_.Unplaced()) {
-    unplaced.insert(topics_[lost.topic].name + ": " + lost.text);
-  }
+  std::map<std::size_t, std::size_t> counts;  // by topic: one must not hide the others
   std::vector<std::string> not_shown;
-  for (const std::string& text : unplaced) {
-    if (unplaced_.count(text) == 0) continue;
-    if (not_shown.size() < kMost) not_shown.push_back(text);
-    if (warned_.size() >= kMost || !warned_.insert(text).second) continue;
-    spdlog::warn("{}", PrintableLine(text));
+  for (const WithoutPlace& lost : store_.Unplaced()) {
+    std::string text = PrintableLine(topics_[lost.topic].name + ": " + TextOf(lost));
+    const bool is_for_long = unplaced_.count(text) > 0;
+    unplaced.insert(text);
+    if (!is_for_long || ++counts[lost.topic] > kMostOfTopic) continue;
+    if (warned_.size() < kMostWarnings && warned_.insert(text).second) spdlog::warn("{}", text);
+    not_shown.push_back(std::move(text));
+  }
+  for (const auto& [topic, count] : counts) {
+    if (count <= kMostOfTopic) continue;
+    const std::string& name = topics_[topic].name;
+    not_shown.push_back(
+        fmt::format("{}: markers in {} more frames without a place", name, count - kMostOfTopic));
+    if (warned_.size() < kMostWarnings && warned_.insert(name).second) {
+      spdlog::warn("{} (ros.not_shown of /api/v1/diagnostics counts them)", not_shown.back());
+    }
   }
   unplaced_ = std::move(unplaced);
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -274,15 +283,20 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   if (images_.TakeChanged()) sink.OnImages(images_.images());
   const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
   if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
-  const auto note = [this](std::size_t topic, const std::string& text) {
+  const auto note = [this](const WithoutPlace& lost) {
+    const std::string text = TextOf(lost);
     const std::lock_guard<std::mutex> lock(mutex_);
-    InputCounters& counters = counters_[topics_[topic].name];
+    InputCounters& counters = counters_[topics_[lost.topic].name];
     ++counters.refused["unknown frame"];
     counters.last_problem = text;
   };
-  for (const MarkerStore::Lost& lost : store_.TakeLost()) note(lost.topic, lost.text);
+  for (const WithoutPlace& lost : store_.TakeLost()) note(lost);
   WarnOfUnplaced(monotonic_nanos);
-  for (const ImageBox::Lost& lost : images_.TakeLost()) note(lost.topic, lost.text);
+  for (const WithoutPlace& lost : images_.TakeLost()) note(lost);
+}
+
+std::string MarkerInbox::TextOf(const WithoutPlace& lost) const {
+  return lost.Text(*tf_, frame_->name());
 }
 
 std::map<std::string, InputCounters> MarkerInbox::counters() const {

@@ -83,6 +83,7 @@ class MarkerInbox {
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   void WarnOfUnplaced(std::int64_t monotonic_nanos);
+  std::string TextOf(const WithoutPlace& lost) const;
   std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) const;
   std::vector<const RobotFrames*> Robots() const;
   bool UpdateFrames(std::int64_t monotonic_nanos);

@@ -45,7 +45,7 @@ std::string ProblemOf(const RobotState& robot, const std::vector<std::string>& f
   if (missing.empty()) return "";
   const std::size_t count = missing.size();
   if (count > kMostNamed) missing.resize(kMostNamed);
-  return fmt::format("robot '{}': {} of {} links have no frame in TF: {}{}", robot.name, count,
+  return fmt::format("robot '{}': {} of {} links have no place in TF: {}{}", robot.name, count,
                      seen, fmt::join(missing, ", "), count > kMostNamed ? ", ..." : "");
 }
 
@@ -117,6 +117,14 @@ bool RobotFrames::Place(const FindFrame& find) {
   next.problem = ProblemOf(next, frames_);
   now_ = std::make_shared<const RobotState>(std::move(next));
   return true;
+}
+
+std::string RobotFrames::FirstMissing() const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const bool is_seen = !model_->links[i].visuals.empty();
+    if (is_seen && !IsSomewhere(now_->world_from_link[i])) return frames_[i];
+  }
+  return "";
 }
 
 std::optional<urdf::Pose> RobotFrames::FindChained(const std::string& frame) const {

@@ -46,6 +46,9 @@ class RobotFrames {
   /// names it. True if anything has changed.
   bool Place(const FindFrame& find);
 
+  /// The frame of the first link that would be seen and is nowhere; "": there is none.
+  std::string FirstMissing() const;
+
   /// The frame of a link that is chained; nullopt: it is another one.
   std::optional<urdf::Pose> FindChained(const std::string& frame) const;
 

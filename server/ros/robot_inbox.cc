@@ -193,8 +193,9 @@ void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
   if (slot.incomplete_nanos == 0) slot.incomplete_nanos = monotonic_nanos;
   if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
   if (std::exchange(slot.warned_of, problem) == problem) return;
-  spdlog::warn("{}: {}; does robot_state_publisher run, and is '{}' connected to it in TF?",
-               NameOf(i), problem, frame_->name());
+  const std::string& frame = frame_->name();
+  spdlog::warn("{}: {} ({}); does robot_state_publisher run, and is '{}' connected to it in TF?",
+               NameOf(i), problem, WhyNotFound(*tf_, slot.frames->FirstMissing(), frame), frame);
   const std::lock_guard<std::mutex> lock(mutex_);
   counters_[NameOf(i)].last_problem = problem;
 }

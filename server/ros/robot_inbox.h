@@ -19,6 +19,7 @@
 #include "server/ros/bridge.h"
 #include "server/ros/effort_rings.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/frame_ways.h"
 #include "server/ros/refusal.h"
 #include "server/ros/robot_frames.h"
 #include "server/ros/robot_loader.h"

@@ -2,32 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <map>
 #include <utility>
 
 #include "core/system/utf8.h"
+#include "server/ros/frame_ways.h"
 
 namespace kinescope::ros_bridge {
-
-std::string RootOf(const std::unordered_map<std::string, TreeFrame>& frames,
-                   const std::string& near) {
-  const auto root_of = [&](std::string frame) {
-    // A loop ends where it has been gone through.
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const auto found = frames.find(frame);
-      if (found == frames.end() || found->second.parent.empty()) break;
-      frame = found->second.parent;
-    }
-    return frame;
-  };
-  if (frames.count(near) != 0) return root_of(near);
-  std::map<std::string, int> sizes;
-  for (const auto& [name, frame] : frames) ++sizes[root_of(name)];
-  const auto largest = std::max_element(
-      sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  return largest == sizes.end() ? "" : largest->first;
-}
 
 SceneFrame::SceneFrame(std::string wanted, std::shared_ptr<const TfTree> tf)
     : wanted_(std::move(wanted)), tf_(std::move(tf)), name_(wanted_) {}

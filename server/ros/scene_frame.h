@@ -4,16 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <unordered_map>
 
 #include "server/ros/force_frames.h"
 
 namespace kinescope::ros_bridge {
-
-/// The root of the tree that `near` is part of; without such a frame that of the tree with most
-/// frames. "": there are no frames.
-[[nodiscard]] std::string RootOf(const std::unordered_map<std::string, TreeFrame>& frames,
-                                 const std::string& near);
 
 /// Of a graph, whose frames come one after another.
 class SceneFrame {

@@ -1,4 +1,6 @@
 // Laser scans and point clouds as markers.
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -51,6 +53,23 @@ class CloudField {
       }
     }
     return std::nullopt;
+  }
+
+  // Why it is no coordinate of the points; "": it is one.
+  static std::string WhyNoCoordinate(const sensor_msgs::PointCloud2& cloud,
+                                     const std::string& name) {
+    if (const auto found = Find(cloud, {name})) {
+      return found->is_float() ? "" : "its field " + name + " is not of type FLOAT32";
+    }
+    for (const sensor_msgs::PointField& field : cloud.fields) {
+      if (field.name != name) continue;
+      const std::size_t size = SizeOf(field.datatype);
+      if (size == 0) return fmt::format("its field {} is of no type: {}", name, field.datatype);
+      if (field.count == 0) return "its field " + name + " has no number";
+      return fmt::format("its field {} ends at byte {} of points of {} bytes", name,
+                         std::uint64_t{field.offset} + size, cloud.point_step);
+    }
+    return "it has no field " + name;
   }
 
   bool is_float() const { return type_ == sensor_msgs::PointField::FLOAT32; }
@@ -137,8 +156,9 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
   if (const char* const defect = DefectOf(message)) return refuse(defect);
   const auto x = CloudField::Find(message, {"x"}), y = CloudField::Find(message, {"y"}),
              z = CloudField::Find(message, {"z"});
-  if (!x || !y || !z || !x->is_float() || !y->is_float() || !z->is_float()) {
-    return refuse("no fields x, y and z of type FLOAT32");
+  for (const char* const name : {"x", "y", "z"}) {
+    const std::string why = CloudField::WhyNoCoordinate(message, name);
+    if (!why.empty()) return refuse(why);
   }
   const auto packed = CloudField::Find(message, {"rgb", "rgba"});
   const bool has_colors = packed && packed->size() == 4 && !style.color && !style.scale;

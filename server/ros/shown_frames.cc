@@ -139,6 +139,15 @@ double ShownFrames::AgeOf(const Seen& frame, std::int64_t now_nanos) const {
   return age;
 }
 
+bool ShownFrames::HasLoop(const Seen& frame) const {
+  auto parent = seen_.find(frame.parent);
+  int depth = 0;
+  for (; depth < kDeepest && parent != seen_.end(); ++depth) {
+    parent = seen_.find(parent->second.parent);
+  }
+  return depth == kDeepest;
+}
+
 std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame*>& frames,
                                                    const FindFrame& find, std::int64_t now_nanos) {
   const FramesStyle& style = style_.frames;
@@ -161,7 +170,8 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame
       const auto before = lost_.find(name);
       const bool is_heard_of = age_secs < kSilentSecs && lost.size() < kMostShownFrames;
       const std::int64_t since = before == lost_.end() ? now_nanos : before->second.since_nanos;
-      if (is_heard_of) lost[name] = {since, places[name].has_value()};
+      const Why why = places[name] ? Why::kFar : HasLoop(frame) ? Why::kLoop : Why::kNoWay;
+      if (is_heard_of) lost[name] = {since, why};
       continue;
     }
     Shown shown{
@@ -217,16 +227,22 @@ void ShownFrames::Draw() {
 }
 
 std::string ShownFrames::TakeLost() {
-  std::vector<std::string> ways, far;
+  std::map<Why, std::vector<std::string>> names;
   for (const auto& [name, lost] : lost_) {
     const bool is_for_long = looked_nanos_ && *looked_nanos_ - lost.since_nanos >= kNanosPerSecond;
     if (is_for_long && told_.size() < kMostShownFrames && told_.insert(name).second) {
-      (lost.is_far ? far : ways).push_back(name);
+      names[lost.why].push_back(name);
     }
   }
-  const std::string without = ListOf("frames without a way to that of the scene", ways);
-  const std::string beyond = ListOf("frames beyond 50 km", far);
-  return without + (without.empty() || beyond.empty() ? "" : "; ") + beyond;
+  std::string text;
+  for (const auto& [why, title] :
+       {std::pair(Why::kNoWay, "frames without a way to that of the scene"),
+        std::pair(Why::kLoop, "frames in a loop or below it"),
+        std::pair(Why::kFar, "frames beyond 50 km")}) {
+    const std::string list = ListOf(title, names[why]);
+    text += (text.empty() || list.empty() ? "" : "; ") + list;
+  }
+  return text;
 }
 
 MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames) {

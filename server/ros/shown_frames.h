@@ -40,8 +40,9 @@ class ShownFrames {
   /// Axes, shafts and heads of all arrows, then the names, in the frame of the scene.
   const MarkerList& markers() const { return markers_; }
 
-  /// "frames without a way to that of the scene: a, b" and "frames beyond 50 km: c": those that are
-  /// heard of and have been so for a second, each once; "": no further ones.
+  /// "frames without a way to that of the scene: a, b", "frames in a loop or below it: c" and
+  /// "frames beyond 50 km: d": those that are heard of and have been so for a second, each once;
+  /// "": no further ones.
   [[nodiscard]] std::string TakeLost();
 
  private:
@@ -60,13 +61,16 @@ class ShownFrames {
     bool operator==(const Shown& other) const;
   };
 
+  enum class Why { kNoWay, kLoop, kFar };
   struct Lost {
     std::int64_t since_nanos = 0;
-    bool is_far = false;  // else it has no way
+    Why why = Why::kNoWay;
   };
 
   /// Since it was last heard of, s.
   static double OwnAgeOf(const Seen& frame, std::int64_t now_nanos);
+  /// Whether it is in a loop, or hangs on one.
+  bool HasLoop(const Seen& frame) const;
   /// Of it, or of any that it hangs on.
   double AgeOf(const Seen& frame, std::int64_t now_nanos) const;
   /// `frames`: those that are not gone, by name.

@@ -92,28 +92,13 @@ void AddFlatArrow(const geometry_msgs::Pose& pose, double length, Marker& lines)
   }
 }
 
-// The line and the axes of its poses as one marker, which has one name in a legend.
-Marker WithAxes(const Marker& line, const nav_msgs::Path& path, double length,
-                const ShownStyle& style) {
-  Marker lines = line;
-  lines.type = Marker::LINE_LIST;
-  lines.points.clear();
-  for (std::size_t i = 1; i < line.points.size(); ++i) {
-    lines.points.insert(lines.points.end(), {line.points[i - 1], line.points[i]});
-  }
-  lines.colors.assign(lines.points.size(), line.color);
-  for (const geometry_msgs::PoseStamped& each : path.poses) {
-    AddAxes(each.pose, length, line.scale.x, style, lines);
-  }
-  return lines;
-}
-
 ShownMarkers ShowPose(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
                       const ShownStyle& style) {
   if (style.has_axes) {
     const double length = style.size_m.value_or(1);
     Marker lines = MarkerOf(header, 0, Marker::LINE_LIST, Color(255, 255, 255));
-    AddAxes(pose, length, style.width_m.value_or(0.1 * length), style, lines);
+    lines.pose = pose;
+    AddAxes({}, length, style.width_m.value_or(0.1 * length), style, lines);
     return {lines};
   }
   constexpr double kLength = 1.3;
@@ -176,7 +161,7 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::PoseArray& message, const Sho
 }
 
 Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& style) {
-  constexpr std::size_t kPointsWithAxes = 8;
+  constexpr std::size_t kPointsWithAxes = 6;
   const std::size_t most = kMaxMarkerPoints / (style.has_axes     ? kPointsWithAxes
                                                : style.has_arrows ? kPointsOfArrow
                                                                   : 1);
@@ -186,9 +171,17 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::Path& message, const ShownStyle& s
     line.points.push_back(each.pose.position);
   }
   const double length = style.poses.size_m.value_or(kLengthInList);
-  if (style.has_axes) return OneOrNone(WithAxes(line, message, length, style));
   if (line.points.size() == 1) line.points.clear();  // no line
   ShownMarkers markers = OneOrNone(std::move(line));
+  if (style.has_axes) {
+    Marker axes = MarkerOf(message.header, 1, Marker::LINE_LIST, Color(255, 255, 255));
+    const double width = style.poses.width_m.value_or(0.1 * length);
+    for (const geometry_msgs::PoseStamped& each : message.poses) {
+      AddAxes(each.pose, length, width, style, axes);
+    }
+    markers.push_back(OneOrNone(std::move(axes)).front());
+    return markers;
+  }
   if (!style.has_arrows) return markers;
   ShownStyle of_poses = style;
   of_poses.color = style.poses.color;

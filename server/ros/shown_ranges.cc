@@ -31,7 +31,11 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::Range& message, const ShownStyl
   const double radius = range * std::tan(field / 2);
   auto color = Color(255, 255, 255);
   color.a = 0.5F;
-  visualization_msgs::Marker cone = TrianglesOf(message.header, 0, In(style, color));
+  // RViz draws its front alone. Of its front and its back, which every ray meets once, both
+  // together are as opaque.
+  std_msgs::ColorRGBA half = In(style, color);
+  half.a = 1 - std::sqrt(1 - half.a);
+  visualization_msgs::Marker cone = TrianglesOf(message.header, 0, half);
   if (!(range > 0 && radius > 0)) return OneOrNone(std::move(cone));
   const auto corner = [&](int i) {
     const double angle = 2 * M_PI * i / kSides;

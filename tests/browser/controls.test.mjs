@@ -313,7 +313,7 @@ test('a full disk ends a recording with a reason, what was recorded stays, and t
 test('a source that is not a live stream is not recorded, and its trials have clips', async () => {
   const demo = await startLab({ source: 'demo:lift', folder, marks: 'demo.jsonl', options: ['--recordings_folder', recordings] });
   const { page, close } = await openLive(demo.operator);
-  await textIs(page, 'recording-note', /^Not possible: demo:lift: only a live stream over UDP or TCP can be recorded/);
+  await textIs(page, 'recording-note', /^Not possible: the source demo:lift is not a live stream over UDP or TCP/);
   await page.fill('#trial-person', 'Nobody');
   await page.fill('#trial-condition', 'demo');
   await page.click('#trial-run');

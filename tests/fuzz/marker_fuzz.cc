@@ -45,7 +45,9 @@ void CheckMarkers(const std::vector<visualization_msgs::Marker>& markers) {
     static_cast<void>(store.Update(now, [](const std::string& frame, std::int64_t) {
       return frame.size() % 2 == 0 ? std::make_optional(FramePlace{}) : std::nullopt;
     }));
-    for (const MarkerStore::Lost& lost : store.TakeLost()) KINESCOPE_CHECK(!lost.text.empty());
+    for (const WithoutPlace& lost : store.TakeLost()) {
+      KINESCOPE_CHECK(!lost.Text(TfTree(), "world").empty());
+    }
   }
   KINESCOPE_CHECK(store.markers().size() <= kMaxMarkers);
   for (const std::shared_ptr<const SceneMarker>& marker : store.markers()) {

@@ -100,6 +100,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["ignored"] = counters->ignored;
     out["source"]["rejected"] = counters->rejected;
     out["source"]["transport"] = counters->transport;
+    out["source"]["problems"] = counters->problems;
+    out["source"]["passed_secs"] = Secs(counters->passed_nanos);
   }
   out["stream"] = stream != nullptr ? json::parse(StreamHealthJson(*stream)) : json(nullptr);
   if (state) out["loads"] = LoadsOf(*state);

@@ -89,6 +89,7 @@ InspectionReport SampleInspection::Report(const Source& source) const {
     report.errors.push_back(std::move(error));
   }
   report.ignored = counters.ignored;
+  report.advice = counters.problems;
   return report;
 }
 

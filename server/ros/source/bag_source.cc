@@ -16,9 +16,9 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/words.h"
+#include "server/ros/frame_ways.h"
 #include "server/ros/names.h"
 #include "server/ros/raw_message.h"
-#include "server/ros/scene_frame.h"
 #include "server/ros/source/bag_messages.h"
 #include "server/ros/source/bag_surroundings.h"
 #include "server/ros/source/common_frame.h"
@@ -125,7 +125,13 @@ class BagSource : public Source {
 
   // A picture may need the beginning of the bag alone, so the end is too late to say it.
   ~BagSource() override {
-    if (counters_.samples > 0 || moment_nanos_ != 0) surroundings_.WarnOfProblems(name_);
+    if (counters_.samples > 0 || moment_nanos_ != 0) surroundings_.WarnOfProblems(name_, world_);
+    const bool has_own = counters_.ignored.count(BagSurroundings::kOwnMarkers) > 0;
+    if (!has_person_ && has_own && surroundings_.IsEmpty()) {
+      WarnOfBag(name_, fmt::format("has no person on {} or link_states, and its markers are those "
+                                   "of a Kinescope, which are drawn with the person only",
+                                   tf_topic_));
+    }
     const std::string damage = DamageIn(messages_);
     if (!has_ended_ && !damage.empty()) WarnOfBag(name_, damage);
   }
@@ -516,6 +522,7 @@ SourceCounters BagSource::counters() const {
     counters.rejected[defect] += records;
     counters.datagrams += records;
   }
+  counters.problems = common_frame_.problems();
   return counters;
 }
 

@@ -166,7 +166,7 @@ void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& cou
   }
   const std::string name = WithSlash(message.connection->topic);
   if (!array_.markers.empty() && IsOwnMarker(name, array_.markers.front().ns)) {
-    ++counters.ignored["markers of Kinescope"];
+    ++counters.ignored[kOwnMarkers];
     return;
   }
   has_markers_ = true;
@@ -255,8 +255,8 @@ void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, const st
                                     bool is_static) {
   const bool is_used = has_markers_ || has_scenes_on_images_ || !robots_.empty() ||
                        camera_frame_.is_wanted() || frames_ || is_static;
-  const auto refusal = is_used ? tf_.Add(message, is_static) : std::nullopt;
-  if (refusal) Note(WithSlash(topic), *refusal);
+  if (!is_used) return;
+  for (const Refusal& refusal : tf_.Add(message, is_static)) Note(WithSlash(topic), refusal);
 }
 
 std::vector<const RobotFrames*> BagSurroundings::Frames() const {
@@ -312,7 +312,7 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     if (lost_frames_.size() >= kMostWarnings || !lost_frames_.insert(text).second) return;
     spdlog::warn("bag '{}': {}", bag, text);
   };
-  for (const ImageBox::Lost& lost : images_.TakeLost()) warn(lost.text);
+  for (const WithoutPlace& lost : images_.TakeLost()) warn(lost.Text(tf_, world));
   if (!frames_) return;
   const std::string lost = frames_->TakeLost();
   if (!lost.empty()) spdlog::warn("bag '{}': {}", bag, lost);
@@ -326,16 +326,17 @@ void WarnOfBag(const std::string& bag, const std::string& text) {
   if (told.insert(line).second) spdlog::warn("{}", line);
 }
 
-void BagSurroundings::WarnOfProblems(const std::string& bag) const {
+void BagSurroundings::WarnOfProblems(const std::string& bag, const std::string& world) const {
   const auto warn = [&](const std::string& text) { WarnOfBag(bag, text); };
   for (const Robot& robot : robots_) {
     const std::string& problem = robot.frames.now()->problem;
-    if (!problem.empty()) warn(problem);
+    if (problem.empty()) continue;
+    warn(fmt::format("{} ({})", problem, WhyNotFound(tf_, robot.frames.FirstMissing(), world)));
   }
   for (const auto& [kind, text] : rejected_) warn(text);
   std::size_t count = 0;
-  for (const MarkerStore::Lost& lost : store_.Unplaced()) {
-    if (++count <= kMostWarnings) warn(lost.text);
+  for (const WithoutPlace& lost : store_.Unplaced()) {
+    if (++count <= kMostWarnings) warn(lost.Text(tf_, world));
   }
   std::set<std::string> silent;
   for (const ShownTopic& topic : shown_topics_) {

@@ -44,6 +44,13 @@ class BagSurroundings {
   /// Whether its messages are used.
   bool IsUsed(const BagConnection& connection) const;
 
+  /// What is ignored of them, in SourceCounters.
+  static constexpr char kOwnMarkers[] = "markers of Kinescope";
+  /// Nothing that is shown has come.
+  bool IsEmpty() const {
+    return store_.markers().empty() && robots_.empty() && images_.images().empty() && !frames_;
+  }
+
   /// The frame of the first thing that is shown; "": there is none yet.
   std::string FirstFrame() const { return store_.FirstFrame(); }
   /// Whether WarnOfProblems() tells what is counted as `defect`.
@@ -70,7 +77,7 @@ class BagSurroundings {
   /// Says which links of robots are nowhere; once per program, although a bag is read for a clip
   /// twice, and again in every round of --loop.
   /// And what was not shown of the topics that are named.
-  void WarnOfProblems(const std::string& bag) const;
+  void WarnOfProblems(const std::string& bag, const std::string& world) const;
 
  private:
   struct Robot {

@@ -30,11 +30,13 @@ void CommonFrame::Take(const tf2_msgs::TFMessage& message, bool is_static) {
 
 void CommonFrame::Bring(BodySample& sample, const std::string& root, const std::string& of_first) {
   const std::string& target = wanted_.empty() ? of_first : wanted_;
+  const std::int64_t now = newest_nanos_ = sample.stamp_nanos;
   if (root.empty() || root == target) return;
-  const std::int64_t now = sample.stamp_nanos;
   Root& known = roots_[root];
+  known.brought_nanos = now;
   auto place = tree_.Find(target, root, now);
   if (place) {
+    if (known.lost_nanos != 0) known.problem.clear();
     known.lost_nanos = 0;
     known.is_told_lost = false;
   } else {
@@ -66,6 +68,7 @@ void CommonFrame::Hold(Root& known, const std::string& root, const urdf::Pose& p
   if (!known.is_placed) known.held = known.seen = place;
   known.is_placed = true;
   if (AreSame(place, known.held)) {
+    if (known.moved_nanos != 0) known.problem.clear();
     known.moved_nanos = 0;
     known.seen = place;
     return;
@@ -77,15 +80,30 @@ void CommonFrame::Hold(Root& known, const std::string& root, const urdf::Pose& p
   }
   if (now_nanos - known.seen_nanos >= kStandsNanos) {
     known.held = place;
+    known.problem.clear();
     known.moved_nanos = 0;
     return;
   }
-  if (known.is_told_moving || now_nanos - known.moved_nanos < kPatienceNanos) return;
-  known.is_told_moving = true;
-  spdlog::warn(
-      "{}: people are in the frame '{}', which moves: they are placed where it was first, so that "
-      "their loads are those on a floor that stands",
-      source_, PrintableLine(root));
+  if (!known.problem.empty() || now_nanos - known.moved_nanos < kPatienceNanos) return;
+  Tell(known,
+       fmt::format("people are in the frame '{}', which moves: they are placed where it was first, "
+                   "so that their loads are those on a floor that stands",
+                   PrintableLine(root)),
+       known.is_told_moving);
+}
+
+void CommonFrame::Tell(Root& known, std::string problem, bool& is_told) const {
+  known.problem = std::move(problem);
+  if (!std::exchange(is_told, true)) spdlog::warn("{}: {}", source_, known.problem);
+}
+
+std::vector<std::string> CommonFrame::problems() const {
+  std::vector<std::string> all;
+  for (const auto& [name, root] : roots_) {
+    const bool has_people = newest_nanos_ - root.brought_nanos < kPatienceNanos;
+    if (has_people && !root.problem.empty()) all.push_back(root.problem);
+  }
+  return all;
 }
 
 // The transforms may come some time after the people.
@@ -93,15 +111,16 @@ void CommonFrame::NoteLost(Root& known, const std::string& root, const std::stri
                            std::int64_t now_nanos) const {
   if (known.lost_nanos == 0 || now_nanos < known.lost_nanos) known.lost_nanos = now_nanos;
   if (known.is_told_lost || now_nanos - known.lost_nanos < kPatienceNanos) return;
-  known.is_told_lost = true;
   const std::string way_out =
       root == of_first
           ? fmt::format("; if that is right, give --reference_frame {}", PrintableLine(root))
           : "; publish the transform between them";
-  spdlog::warn(
-      "{}: people are in the frame '{}', and TF has no way from there to '{}': they are placed as "
-      "if these were the same{}",
-      source_, PrintableLine(root), PrintableLine(wanted_.empty() ? of_first : wanted_), way_out);
+  Tell(known,
+       fmt::format("people are in the frame '{}', and TF has no way from there to '{}': they are "
+                   "placed as if these were the same{}",
+                   PrintableLine(root), PrintableLine(wanted_.empty() ? of_first : wanted_),
+                   way_out),
+       known.is_told_lost);
 }
 
 }  // namespace kinescope::ros_bridge

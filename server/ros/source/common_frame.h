@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/body_sample.h"
 #include "server/ros/force_frames.h"
@@ -30,9 +31,14 @@ class CommonFrame {
   /// @param of_first  that of the first person
   void Bring(BodySample& sample, const std::string& root, const std::string& of_first);
 
+  /// As SourceCounters::problems: of the frames that people are in now.
+  std::vector<std::string> problems() const;
+
  private:
   struct Root {
-    std::int64_t lost_nanos = 0;  // since then there is no way; 0: there is one
+    std::int64_t brought_nanos = 0;  // stamp of the newest sample in it
+    std::int64_t lost_nanos = 0;     // since then there is no way; 0: there is one
+    std::string problem;             // "": none
     bool is_told_lost = false, is_told_moving = false;
     bool is_placed = false;
     urdf::Pose held, seen;         // where it is taken; where it was last
@@ -42,12 +48,14 @@ class CommonFrame {
 
   void NoteLost(Root& known, const std::string& root, const std::string& of_first,
                 std::int64_t now_nanos) const;
+  void Tell(Root& known, std::string problem, bool& is_told) const;
   void Hold(Root& known, const std::string& root, const urdf::Pose& place,
             std::int64_t now_nanos) const;
 
   const std::string source_, wanted_;
   TfTree tree_;
   bool keeps_moving_ = false;
+  std::int64_t newest_nanos_ = 0;      // stamp of the newest sample
   std::map<std::string, Root> roots_;  // of people, of whom there are few
 };
 

@@ -34,6 +34,7 @@ namespace {
 constexpr std::string_view kScheme = "ros:";
 constexpr char kMasterAnswers[] = "ros_master_answers", kPublishers[] = "publishers";  // counters
 constexpr std::int64_t kSettleNanos = 250'000'000;
+constexpr std::int64_t kToldNanos = 2 * kNanosPerSecond;  // nodes that swapped do so for as long
 constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
 constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
 
@@ -140,6 +141,11 @@ class GraphSource : public Source {
     add("clock_steps", clock_steps_);
     add("failed_time_questions", clocks_.failures());
     counters.clocks = clocks_.Report();
+    counters.problems = common_frame_.problems();
+    const std::int64_t now = MonotonicNanos();
+    for (const auto& [frame, sender] : senders_) {
+      if (now - sender.told_nanos < kToldNanos) counters.problems.push_back(sender.problem);
+    }
     return counters;
   }
   std::string description() const override { return description_; }
@@ -255,21 +261,28 @@ class GraphSource : public Source {
   void NoteSender(const std::string& node, std::int64_t now) {
     constexpr std::size_t kMost = 64;
     constexpr int kSwaps = 4;
+    const auto is_within = [&](std::int64_t then) { return now - then < kToldNanos; };
     if (transforms_.transforms.empty()) return;
     const std::string& frame = transforms_.transforms.front().child_frame_id;
     if (senders_.size() >= kMost && senders_.count(frame) == 0) return;
     Sender& sender = senders_[frame];
-    const bool is_other = sender.seen_nanos != 0 && sender.node != node;
-    sender.swaps =
-        now - sender.seen_nanos < kNanosPerSecond ? sender.swaps + (is_other ? 1 : 0) : 0;
-    if (is_other && sender.swaps == kSwaps) {
-      spdlog::warn(
-          "two nodes, {} and {}, send the frames of one person ('{}'): who is shown jumps between "
-          "them; give one of them another --model_name",
-          sender.node, node, PrintableLine(frame.substr(0, kLongestTypeName)));
+    const bool is_other = !sender.node.empty() && sender.node != node;
+    if (is_other) {
+      sender.swaps = is_within(sender.swapped_nanos) ? sender.swaps + 1 : 1;
+      sender.swapped_nanos = now;
+      if (sender.swaps >= kSwaps) {
+        const bool is_known = is_within(sender.told_nanos);
+        sender.told_nanos = now;
+        if (!is_known) {
+          sender.problem = fmt::format(
+              "two nodes, {} and {}, send the frames of one person ('{}'): who is shown jumps "
+              "between them; give one of them another --model_name",
+              sender.node, node, PrintableLine(frame.substr(0, kLongestTypeName)));
+          spdlog::warn("{}", sender.problem);
+        }
+      }
     }
     sender.node = node;
-    sender.seen_nanos = now;
   }
   static void Shift(ros::Time& stamp, std::int64_t nanos) {
     if (nanos != 0 && !stamp.isZero()) stamp = ToRosTime(ToNanos(stamp) + nanos);
@@ -300,8 +313,10 @@ class GraphSource : public Source {
   std::map<int, std::int64_t> newest_;  // stamps, by character; if it is
   struct Sender {
     std::string node;
-    std::int64_t seen_nanos = 0;  // monotonic clock
-    int swaps = 0;                // of nodes, in a row
+    int swaps = 0;                             // of nodes, in a row
+    std::int64_t swapped_nanos = -kToldNanos;  // monotonic clock
+    std::string problem;
+    std::int64_t told_nanos = -kToldNanos;  // when it was so last; the same
   };
   std::map<std::string, Sender> senders_;  // by the first frame of a message
   PublisherClocks clocks_;

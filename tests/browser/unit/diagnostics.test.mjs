@@ -32,6 +32,17 @@ test('clocks that differ are listed', () => {
   assert.deepEqual(problemLines({ stream: { clocks } }, []), ['The clock of /b is 3.00 s behind the server\'s.']);
 });
 
+test('what is wrong with people who are shown is listed', () => {
+  const problems = ["people are in the frame 'lab', which moves"];
+  assert.deepEqual(problemLines({ source: { problems } }, []), ["People are in the frame 'lab', which moves."]);
+});
+
+test('a recording that is read up to where it begins says how far', () => {
+  assert.deepEqual(problemLines({ source: { passed_secs: 1234.4 } }, []),
+    ['The recording is passed over up to the moment at which it is to begin: 1234 s so far']);
+  assert.deepEqual(problemLines({ source: { passed_secs: 0 } }, []), []);
+});
+
 test('what is not shown of a ROS graph is listed with the reason, and a master that does not answer', () => {
   const ros = { master_uri: 'http://lab:11311', not_shown: ['/cloud: no node publishes it'] };
   assert.deepEqual(problemLines({ ros }, []), ['Not shown: /cloud: no node publishes it']);

@@ -23,6 +23,7 @@ using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string RefusalOfText(const std::string& text) {
   try {
@@ -105,6 +106,30 @@ TEST(RvizFile, NamesWhatIsNotDrawnWithItsLineAndLeavesOutWhatIsOff) {
                           "saved.rviz:11: a display without a Class 'lower case' is not drawn",
                           HasSubstr("no display that is on shows people"),
                           HasSubstr("the current view has no Class")));
+}
+
+TEST(RvizFile, NamesWhatIsOfAnotherType) {
+  EXPECT_THAT(ReadText("Visualization Manager:\n"
+                       "  Global Options: hello\n"
+                       "  Displays: 5\n"
+                       "  Views: 7\n")
+                  .remarks,
+              ElementsAre("saved.rviz:2: Global Options is no map: nothing of it is taken",
+                          "saved.rviz:4: Views is no map: nothing of it is taken",
+                          "saved.rviz:3: Displays is no list: none is drawn",
+                          HasSubstr("no display that is on shows people"),
+                          HasSubstr("10 m away); the file may be cut off: RViz ends it with "
+                                    "Window Geometry")));
+  EXPECT_THAT(
+      ReadText("Visualization Manager:\n"
+               "  Displays:\n"
+               "    - 5\n"
+               "    - [a]\n"
+               "Window Geometry: {}\n")
+          .remarks,
+      ElementsAre("saved.rviz:3: an entry of Displays that is no map is left out",
+                  "saved.rviz:4: an entry of Displays that is no map is left out",
+                  HasSubstr("no display that is on shows people"), Not(HasSubstr("cut off"))));
 }
 
 // Found by the fuzzer.

@@ -88,7 +88,7 @@ Visualization Manager:
   EXPECT_THAT(
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,width=0.1,size=0.4)",
-                  "(color=#19ff00)", "(shape=axes,pose_size=0.3,size=0.2)",
+                  "(color=#19ff00)", "(shape=axes,pose_width=0.03,pose_size=0.3,size=0.2)",
                   "(color=#00ff80,shape=cubes,size=0.03)", "(pixels=5)", "(by=z)",
                   "(color=#010203,force=2.6,torque=2.6,width=0.5,torque_color=#cccc33)",
                   "(size=0.5)", "(shaft_width=0.05,head_width=0.1,head=8,size=10)",

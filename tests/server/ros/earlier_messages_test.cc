@@ -87,5 +87,23 @@ TEST(MessageShelf, LeavesOutPosesThatAreNearToTheOneBefore) {
   EXPECT_TRUE(shelf.Place(4, earlier, none));
 }
 
+// As every Odometry display that RViz has saved: it has tolerances.
+TEST(MessageShelf, ShowsOdometryThatMovesAsAxesToo) {
+  MessageShelf shelf;
+  EarlierMessages earlier;
+  earlier.step_m = earlier.turn_rad = 0.1;
+  for (const bool has_axes : {false, true}) {
+    ShownStyle style;
+    style.has_axes = has_axes;
+    for (int x = 0; x < 3; ++x) {
+      nav_msgs::Odometry odometry;
+      odometry.pose.pose.position.x = x;
+      odometry.pose.pose.orientation.w = 1;
+      ShownMarkers markers = *ToMarkers(odometry, style);
+      EXPECT_TRUE(shelf.Place(has_axes ? 1 : 0, earlier, markers)) << has_axes << x;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinescope::ros_bridge

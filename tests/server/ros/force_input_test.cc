@@ -246,8 +246,8 @@ tf2_msgs::TFMessage Frame(const std::string& parent, const std::string& child, d
 TEST(Frames, AreFoundByEveryLinkNameInTfAndBelowALink) {
   const BodyNow body = Body();
   TfTree tf;
-  EXPECT_FALSE(tf.Add(Frame("world", "plate", 1.5), true));
-  EXPECT_FALSE(tf.Add(Frame("skeleton_right_hand", "handle", 0.1), true));
+  EXPECT_TRUE(tf.Add(Frame("world", "plate", 1.5), true).empty());
+  EXPECT_TRUE(tf.Add(Frame("skeleton_right_hand", "handle", 0.1), true).empty());
   const auto find = [&](const std::string& frame) {
     return FindFrame(frame, 2'000'000'000, "world", "skeleton", body, tf);
   };
@@ -275,15 +275,16 @@ TEST(Frames, AreThoseOfTheNewTimeAfterTimeWasSetBack) {
   TfTree tf;
   tf2_msgs::TFMessage late = Frame("world", "plate", 1);
   late.transforms[0].header.stamp = ros::Time(100, 0);
-  EXPECT_FALSE(tf.Add(late, false));
-  EXPECT_FALSE(tf.Add(Frame("world", "wall", 4), true));
+  EXPECT_TRUE(tf.Add(late, false).empty());
+  EXPECT_TRUE(tf.Add(Frame("world", "wall", 4), true).empty());
   const auto x = [&](const std::string& frame) {
     const auto pose = tf.Find("world", frame, 2'000'000'000);
     return pose ? pose->pose.position.x() : kNan;
   };
-  for (int i = 0; i < 5; ++i) EXPECT_TRUE(tf.Add(Frame("world", "plate", 2), false));
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(tf.Add(Frame("world", "plate", 2), false).empty());
   EXPECT_EQ(x("plate"), 1) << "a few late transforms are late, and no more";
-  EXPECT_FALSE(tf.Add(late, false) || tf.Add(Frame("world", "door", 3), false));
+  EXPECT_TRUE(tf.Add(late, false).empty());
+  EXPECT_TRUE(tf.Add(Frame("world", "door", 3), false).empty());
   for (int i = 0; i < 30; ++i) {
     tf2_msgs::TFMessage again = Frame("world", "plate", 5);
     again.transforms[0].header.stamp = ros::Time(2, 1 + i);
@@ -301,16 +302,16 @@ TEST(Frames, OfOneThatWasInTheFutureComeBackAndOthersStay) {
     message.transforms[0].header.stamp = ros::Time(2, static_cast<std::uint32_t>(nanos));
     return message;
   };
-  ASSERT_FALSE(tf.Add(at("robot", 7, 0), false));
+  ASSERT_TRUE(tf.Add(at("robot", 7, 0), false).empty());
   tf2_msgs::TFMessage future = Frame("world", "door", 1);
   future.transforms[0].header.stamp = ros::Time(3602, 0);
-  ASSERT_FALSE(tf.Add(future, false));
+  ASSERT_TRUE(tf.Add(future, false).empty());
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
   int refused = 0;
   for (int i = 1; i <= 30; ++i) {
-    refused += tf.Add(at("door", 3, i), false) ? 1 : 0;
-    EXPECT_FALSE(tf.Add(at("person", 4, i), false)) << "others go on";
+    refused += tf.Add(at("door", 3, i), false).empty() ? 0 : 1;
+    EXPECT_TRUE(tf.Add(at("person", 4, i), false).empty()) << "others go on";
   }
   EXPECT_EQ(refused, 19);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
@@ -328,8 +329,8 @@ TEST(Frames, AreEarlyUntilATransformOfTheTimeHasCome) {
   TfTree tf;
   tf2_msgs::TFMessage at = Frame("world", "plate", 1);
   at.transforms[0].header.stamp = ros::Time(2);
-  ASSERT_FALSE(tf.Add(at, false));
-  ASSERT_FALSE(tf.Add(Frame("world", "wall", 4), true));
+  ASSERT_TRUE(tf.Add(at, false).empty());
+  ASSERT_TRUE(tf.Add(Frame("world", "wall", 4), true).empty());
   const auto find = [&](const char* frame, double secs) {
     return tf.Find("world", frame, static_cast<std::int64_t>(secs * 1e9)).value();
   };
@@ -340,7 +341,7 @@ TEST(Frames, AreEarlyUntilATransformOfTheTimeHasCome) {
   EXPECT_FALSE(find("wall", 3).is_early) << "it always holds";
   at = Frame("world", "plate", 5);
   at.transforms[0].header.stamp = ros::Time(4);
-  ASSERT_FALSE(tf.Add(at, false));
+  ASSERT_TRUE(tf.Add(at, false).empty());
   EXPECT_FALSE(find("plate", 3).is_early);
   EXPECT_EQ(find("plate", 3).pose.position.x(), 3);
 }
@@ -350,9 +351,9 @@ TEST(Frames, OfOthersStayWhenOneIsLate) {
   TfTree tf;
   tf2_msgs::TFMessage now = Frame("world", "robot", 7), late = Frame("world", "plate", 1);
   now.transforms[0].header.stamp = ros::Time(100, 0);
-  ASSERT_FALSE(tf.Add(now, false));
+  ASSERT_TRUE(tf.Add(now, false).empty());
   now.transforms[0].child_frame_id = "plate";
-  ASSERT_FALSE(tf.Add(now, false));
+  ASSERT_TRUE(tf.Add(now, false).empty());
   late.transforms.resize(25, late.transforms[0]);
   for (std::uint32_t i = 0; i < 25; ++i) late.transforms[i].header.stamp = ros::Time(40, i);
   tf.Add(late, false);
@@ -365,10 +366,10 @@ TEST(Frames, OfOthersStayWhenOneIsLate) {
 // all frames were forgotten, as if time had been set back.
 TEST(Frames, StayWhenTheNewestTransformComesAgainAndAgain) {
   TfTree tf;
-  EXPECT_FALSE(tf.Add(Frame("world", "door", 3), false));
-  EXPECT_FALSE(tf.Add(Frame("world", "plate", 1), false));
+  EXPECT_TRUE(tf.Add(Frame("world", "door", 3), false).empty());
+  EXPECT_TRUE(tf.Add(Frame("world", "plate", 1), false).empty());
   ::testing::internal::CaptureStderr();
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(tf.Add(Frame("world", "plate", 1), false));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(tf.Add(Frame("world", "plate", 1), false).empty());
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(tf.Find("world", "door", 2'000'000'000));
 }
@@ -376,24 +377,33 @@ TEST(Frames, StayWhenTheNewestTransformComesAgainAndAgain) {
 TEST(Frames, HaveALimitedNumberOfNames) {
   TfTree tf;
   for (std::size_t i = 0; i < TfTree::kMostFrameNames; ++i) {
-    ASSERT_EQ(tf.Add(Frame("world", "f" + std::to_string(i), 1), false).has_value(),
-              i + 1 == TfTree::kMostFrameNames)
+    ASSERT_EQ(tf.Add(Frame("world", "f" + std::to_string(i), 1), false).empty(),
+              i + 1 < TfTree::kMostFrameNames)
         << i << ", and the world";
   }
-  EXPECT_FALSE(tf.Add(Frame("world", "f0", 2), false)) << "those that are known go on";
+  EXPECT_TRUE(tf.Add(Frame("world", "f0", 2), false).empty()) << "those that are known go on";
 }
 
 TEST(Frames, AreRejectedIfInvalid) {
   TfTree tf;
-  EXPECT_TRUE(tf.Add(Frame("world", "world", 0), false));
-  EXPECT_TRUE(tf.Add(Frame("", "plate", 0), false));
-  EXPECT_TRUE(tf.Add(Frame("world", std::string(256, 'x'), 0), false));
-  const auto refusal = tf.Add(Frame("world", "plate", kNan), false);
-  ASSERT_TRUE(refusal);
-  EXPECT_EQ(refusal->text, "a transform with a number that is not finite: 'plate' in 'world'");
+  EXPECT_FALSE(tf.Add(Frame("world", "world", 0), false).empty());
+  EXPECT_FALSE(tf.Add(Frame("", "plate", 0), false).empty());
+  EXPECT_FALSE(tf.Add(Frame("world", std::string(256, 'x'), 0), false).empty());
+  tf2_msgs::TFMessage all = Frame("world", "plate", kNan);
+  for (const char* child : {"world", "door", "world"}) {
+    all.transforms.push_back(Frame("world", child, kNan).transforms[0]);
+  }
+  all.transforms.push_back(Frame("world", "wall", 2).transforms[0]);
+  const std::vector<Refusal> refusals = tf.Add(all, false);
+  ASSERT_EQ(refusals.size(), 2U) << "one of each kind";
+  EXPECT_EQ(refusals[0].text, "a transform with a number that is not finite: 'plate' in 'world'");
+  EXPECT_EQ(refusals[1].text, "a transform whose parent is itself: 'world' in 'world'");
+  EXPECT_TRUE(tf.Knows("wall")) << "the others are used";
+  EXPECT_EQ(tf.WhySkipped("door"), "with a number that is not finite");
+  EXPECT_EQ(tf.WhySkipped("wall"), "");
   tf2_msgs::TFMessage no_turn = Frame("world", "plate", 0);
   no_turn.transforms[0].transform.rotation.w = 0;
-  EXPECT_TRUE(tf.Add(no_turn, false));
+  EXPECT_FALSE(tf.Add(no_turn, false).empty());
   EXPECT_FALSE(tf.Find("world", "plate", 2'000'000'000));
 }
 

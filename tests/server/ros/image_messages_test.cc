@@ -275,20 +275,20 @@ TEST(ImageBox, NamesOnceTheCameraThatHasNoPlace) {
     sensor_msgs::CameraInfo message = SomeCalibration();
     message.header.frame_id = "no\x1bwhere";
     if (has_calibration) box.PutCalibration(7, *ToCalibration(message));
-    std::vector<ImageBox::Lost> lost;
+    std::vector<WithoutPlace> lost;
     for (int n = 0; n < 40; ++n) {
       EXPECT_FALSE(box.Put(7, TakenAt(n), {1}));
       box.Update(n * 100'000'000LL, MovingEye);
-      for (const ImageBox::Lost& each : box.TakeLost()) {
+      for (const WithoutPlace& each : box.TakeLost()) {
         EXPECT_GE(n, 10) << "a second";
         lost.push_back(each);
       }
     }
     ASSERT_THAT(lost, SizeIs(1));
     EXPECT_EQ(lost[0].topic, 7u);
-    EXPECT_THAT(lost[0].text,
-                HasSubstr(has_calibration ? "unknown frame 'no" : "no calibration on camera_info"));
-    EXPECT_EQ(lost[0].text.find('\x1b'), std::string::npos);
+    const std::string text = lost[0].Text(TfTree(), "world");
+    EXPECT_THAT(text, HasSubstr(has_calibration ? "frame 'no" : "no calibration on camera_info"));
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
   }
 }
 

@@ -9,29 +9,6 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-using Frames = std::unordered_map<std::string, TreeFrame>;
-
-Frames ByName(const std::vector<TreeFrame>& all) {
-  Frames frames;
-  for (const TreeFrame& frame : all) frames[frame.name] = frame;
-  return frames;
-}
-
-TEST(RootOf, IsThatOfTheLargestTree) {
-  EXPECT_EQ(RootOf({}, ""), "");
-  const Frames frames = ByName({{"b_root", "", 0},
-                                {"b_1", "b_root", 0},
-                                {"a_root", "", 0},
-                                {"a_1", "a_root", 0},
-                                {"a_2", "a_1", 0}});
-  EXPECT_EQ(RootOf(frames, ""), "a_root");
-  EXPECT_EQ(RootOf(frames, "elsewhere"), "a_root");
-  EXPECT_EQ(RootOf(frames, "b_1"), "b_root");
-  EXPECT_EQ(
-      RootOf(ByName({{"loop_a", "loop_b", 0}, {"loop_b", "loop_a", 0}}), "loop_a").substr(0, 5),
-      "loop_");
-}
-
 tf2_msgs::TFMessage Below(const std::string& parent, const std::string& child) {
   tf2_msgs::TFMessage message;
   message.transforms.resize(1);

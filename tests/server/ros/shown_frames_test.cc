@@ -192,5 +192,18 @@ TEST_F(ShownFramesTest, OfALoopHaveAnEnd) {
   EXPECT_THAT(Names(), ElementsAre("a", "b"));
 }
 
+TEST_F(ShownFramesTest, WithoutAPlaceAreNamedAsALoopIfTheyAreOne) {
+  Set("a", "b", {0, 0, 0});
+  Set("b", "a", {1, 0, 0});
+  Set("below", "a", {1, 0, 0});
+  Set("lost", "nowhere", {1, 0, 0});
+  places_.clear();
+  UpdateAt(0);
+  UpdateAt(1.1);
+  EXPECT_EQ(frames_->TakeLost(),
+            "frames without a way to that of the scene: lost; frames in a loop or below it: a, b, "
+            "below");
+}
+
 }  // namespace
 }  // namespace kinescope::ros_bridge

@@ -32,6 +32,13 @@ TEST(DiagnosticsJson, WarnsOfAnAssumedMassAndOfADifferentCentreOfMass) {
   EXPECT_NEAR(person["com_minus_mvn_m"].get<double>(), 0.015, 1e-9);
 }
 
+TEST(DiagnosticsJson, HasWhatIsWrongWithSamplesThatAreShown) {
+  const auto counters = std::make_shared<SourceCounters>();
+  counters->problems = {"people are in the frame 'lab'"};
+  const json told = json::parse(DiagnosticsJson(OnePerson(), counters, {}, {}));
+  EXPECT_THAT(told["source"]["problems"], ElementsAre("people are in the frame 'lab'"));
+}
+
 TEST(DiagnosticsJson, HasNoDifferenceOfTheCentreOfMassIfMvnSendsNone) {
   const auto state = OnePerson();
   state->people[0].forces.com_minus_mvn.reset();

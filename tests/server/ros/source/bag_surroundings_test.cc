@@ -153,7 +153,7 @@ TEST_F(BagSurroundingsTest, AreRobotsWhereTransformsAndJointStatesHaveTheirLinks
   };
   EXPECT_TRUE(place_of(0, 0).hasNaN());
   EXPECT_EQ(recorded.robots[0][0]->problem,
-            "robot 'arm': 2 of 2 links have no frame in TF: lab/base, lab/hand");
+            "robot 'arm': 2 of 2 links have no place in TF: lab/base, lab/hand");
   EXPECT_EQ(place_of(1, 0), Eigen::Vector3d(3, 0, 0));
   EXPECT_EQ(place_of(2, 0), Eigen::Vector3d(3, 0, 0));
   EXPECT_EQ(place_of(3, 0), Eigen::Vector3d(4, 0, 0));
@@ -436,7 +436,9 @@ TEST_F(BagSurroundingsTest, NameOnceTheLinksThatHaveNoFrame) {
   view.robots = {Arm()};
   const CapturedLog log;
   Read([](rosbag::Bag&) {}, view);
-  EXPECT_THAT(log.text(), HasSubstr("2 of 2 links have no frame in TF: base, hand"));
+  EXPECT_THAT(
+      log.text(),
+      HasSubstr("2 of 2 links have no place in TF: base, hand (frame 'base' is not known yet)"));
   const std::string once = log.text();
   Read([](rosbag::Bag&) {}, view);
   EXPECT_EQ(log.text(), once);

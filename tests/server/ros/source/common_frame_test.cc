@@ -9,8 +9,11 @@ namespace kinescope::ros_bridge {
 namespace {
 
 using kinescope::testing::CapturedLog;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 constexpr std::int64_t kSecondOfSample = 1'700'000'000 * kNanosPerSecond;
 
@@ -74,6 +77,13 @@ TEST(CommonFrame, TakesOneThatMovesWhereItWasFirstAndSaysSo) {
   const std::string said = log.text();
   EXPECT_THAT(said, HasSubstr("ros:/tf: people are in the frame 'cart', which moves"));
   EXPECT_EQ(said.find("which moves"), said.rfind("which moves"));
+  EXPECT_THAT(frame.problems(), ElementsAre(HasSubstr("in the frame 'cart', which moves")));
+  for (double secs = 4; secs < 5; secs += 0.1) {
+    frame.Take(TurnedFrame("world", "cart", 14, SampleAfter(secs).stamp_nanos), false);
+    static_cast<void>(x_at(secs));
+  }
+  EXPECT_THAT(frame.problems(), IsEmpty()) << "it stands again";
+  EXPECT_EQ(log.text(), said);
 }
 
 TEST(CommonFrame, TakesAPlaceThatIsSetAnew) {
@@ -107,8 +117,23 @@ TEST(CommonFrame, KeepsThoseInTheirPlaceWhoHaveAWay) {
   EXPECT_THAT(log.text(),
               HasSubstr("in the frame 'lab_a', and TF has no way from there to 'hall'"));
   EXPECT_THAT(log.text(), Not(HasSubstr("lab_b")));
+  EXPECT_THAT(frame.problems(), ElementsAre(HasSubstr("in the frame 'lab_a', and TF has no way")));
   frame.Take(TurnedFrame("hall", "lab_a", 7), true);
   EXPECT_NEAR(x_of("lab_a", 4), 7, 1e-9);
+  EXPECT_THAT(frame.problems(), IsEmpty());
+}
+
+TEST(CommonFrame, HasNoProblemOfThoseWhoLeft) {
+  CommonFrame frame("ros:/tf", "world");
+  const CapturedLog log;
+  for (const double secs : {0.0, 3.0}) {
+    BodySample sample = SampleAfter(secs);
+    frame.Bring(sample, "lab", "world");
+  }
+  EXPECT_THAT(frame.problems(), SizeIs(1));
+  BodySample later = SampleAfter(6);
+  frame.Bring(later, "world", "world");
+  EXPECT_THAT(frame.problems(), IsEmpty());
 }
 
 TEST(CommonFrame, SaysOnceWhereThereIsNoWay) {
