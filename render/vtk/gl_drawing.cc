@@ -270,9 +270,12 @@ class GlDrawing : public Drawing {
     add_bodies(false);
     for (const auto& [id, person] : people_) add(person->held(), id);
     for (vtkActor* object : objects_.actors()) add(object);
-    for (const auto& robot : robots_) {
-      for (vtkActor* body : robot->bodies()) add(body);
-    }
+    const auto add_robots = [&](bool are_translucent) {
+      for (const auto& robot : robots_) {
+        for (vtkActor* body : robot->bodies(are_translucent)) add(body);
+      }
+    };
+    add_robots(false);
     for (vtkActor* marker : markers_->solid()) add(marker);
     add(trails_->actor());
     for (const auto& [id, person] : people_) {
@@ -281,7 +284,10 @@ class GlDrawing : public Drawing {
     for (const auto& [id, person] : people_) {
       for (vtkActor* mark : person->marks()) add(mark, id);
     }
+    // What shines through covers nothing: all that does not comes before it. Maps, which lie on the
+    // floor, come before robots.
     for (vtkActor* marker : markers_->blended()) add(marker);
+    add_robots(true);
     add_bodies(true);
     for (vtkActor* ghost : ghosts_.actors()) add(ghost);
     return all;
@@ -300,9 +306,11 @@ class GlDrawing : public Drawing {
     }
     if (listed.actor == trails_->actor()) return trails_->names();
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const auto bodies = robots_[i]->bodies();
-      const bool is_of = std::find(bodies.begin(), bodies.end(), listed.actor) != bodies.end();
-      if (is_of) return {"robot " + std::to_string(i + 1)};
+      for (const bool are_translucent : {false, true}) {
+        const auto bodies = robots_[i]->bodies(are_translucent);
+        const bool is_of = std::find(bodies.begin(), bodies.end(), listed.actor) != bodies.end();
+        if (is_of) return {"robot " + std::to_string(i + 1)};
+      }
     }
     if (const int ghost = ghosts_.IndexOf(listed.actor); ghost >= 0) {
       return {"reference pose " + std::to_string(ghost + 1)};

@@ -22,9 +22,11 @@ RobotActors::RobotActors() : shadow_(Pass::kBlended, PartActor::Light::kSoft, 1)
   shadow_.SetMesh(RobotShadow());
 }
 
-std::vector<vtkActor*> RobotActors::bodies() {
+std::vector<vtkActor*> RobotActors::bodies(bool are_translucent) {
   std::vector<vtkActor*> actors;
-  for (Group& group : groups_) actors.push_back(group.actor->actor());
+  for (Group& group : groups_) {
+    if (group.is_translucent == are_translucent) actors.push_back(group.actor->actor());
+  }
   return actors;
 }
 
@@ -32,6 +34,7 @@ void RobotActors::AddGroup(VisualMesh mesh, std::vector<std::size_t> links, bool
   for (std::string& problem : mesh.problems) problems_.push_back(std::move(problem));
   if (mesh.mesh.triangles.empty()) return;
   Group group;
+  group.is_translucent = is_translucent;
   const auto pass = is_translucent ? Pass::kBlended : Pass::kSolid;
   group.actor =
       std::make_unique<PartActor>(pass, PartActor::Light::kLit, static_cast<int>(links.size()));
@@ -70,7 +73,6 @@ void RobotActors::Load(const RobotState& robot, OnceLog& log) {
   problems_.clear();
   VisualReader reader(robot.meshes ? *robot.meshes : urdf::MeshSearch(),
                       urdf::ShapeDetail::Robot());
-  // What shines through must be drawn over what does not.
   for (const bool is_translucent : {false, true}) LoadGroups(*robot.model, is_translucent, reader);
   std::sort(problems_.begin(), problems_.end());
   problems_.erase(std::unique(problems_.begin(), problems_.end()), problems_.end());

@@ -34,13 +34,15 @@ class RobotActors {
   const std::vector<std::string>& problems() const { return problems_; }
 
   vtkActor* shadow() { return shadow_.actor(); }
-  std::vector<vtkActor*> bodies();
+  /// Those that are opaque, or those that shine through.
+  std::vector<vtkActor*> bodies(bool are_translucent);
   void AddTo(PictureRegion& region) const;
 
  private:
   // The links of one draw call.
   struct Group {
     std::unique_ptr<PartActor> actor;
+    bool is_translucent = false;
     std::vector<std::size_t> links;          // by part
     std::vector<Eigen::Vector3f> positions;  // vertices of the mesh
     std::vector<float> parts;                // the part of each vertex

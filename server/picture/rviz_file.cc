@@ -148,10 +148,12 @@ class RvizReader {
       const std::string name = each.first.Scalar();
       if (each.second.IsMap()) NameBadColors(each.second, called);
       const bool is_color = name == "Color" || EndsWith(name, " Color");
-      if (!is_color || !each.second.IsScalar() || rviz::IsColor(each.second.Scalar())) continue;
+      if (!is_color || each.second.IsMap()) continue;
+      const bool is_text = each.second.IsScalar();
+      if (is_text && rviz::IsColor(each.second.Scalar())) continue;
       Remark(each.second, (called.empty() ? "" : called + ": ") + name + " " +
-                              Quoted(each.second.Scalar()) +
-                              " is no r; g; b or #rrggbb; RViz's own is taken");
+                              (is_text ? Quoted(each.second.Scalar()) : "that is no text") +
+                              " is no r; g; b, #rrggbb or name of a colour; RViz's own is taken");
     }
   }
 

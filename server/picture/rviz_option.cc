@@ -205,7 +205,9 @@ class Frames {
     // With topics a picture has grids in place of the floor.
     if (is_in_fixed && HasTopics(list_) && list_.Find("floor") != nullptr) return;
     const std::string what =
-        is_in_fixed ? "the camera stands in it, the floor is that of" : "the scene is drawn in";
+        is_in_fixed ? "the camera stands in it; the floor, and what is kept of earlier messages, "
+                      "stand in"
+                    : "the scene is drawn in";
     // That of a bag is known once it is read.
     const std::string frame = !is_of_source_     ? "'" + ours_ + "'"
                               : HasTopics(list_) ? "the frame of the bag"

@@ -125,7 +125,7 @@ class StyleReader {
 
   // RViz does not use that of lines.
   bool HasAlpha() const {
-    const bool is_flat = TextOf(properties_, "Shape", "Arrow (Flat)") == "Arrow (Flat)";
+    const bool is_flat = TextOf(display_, "Shape", "Arrow (Flat)") == "Arrow (Flat)";
     return kind_ != "rviz/Path" && kind_ != "rviz/Polygon" &&
            !(kind_ == "rviz/PoseArray" && is_flat);
   }
@@ -189,12 +189,12 @@ class StyleReader {
   void AddColor() {
     if (has_color_image_) return;  // RViz takes no other transformer then
     if (has_.color == nullptr) return AddTransformer();
-    AddColor("color=", has_.color, {1, 1, 1});
+    AddColor("color=", has_.color);
   }
 
-  void AddColor(const char* key, const char* property, const Rgb& usual) {
-    if (!Member(properties_, property).IsDefined()) return;
-    Add(key + ToHex(ColorOf(properties_, property, usual)));
+  // Without one, or with a text that is none, it is that of RViz, which is ours, too.
+  void AddColor(const char* key, const char* property) {
+    if (const auto color = FindColor(properties_, property)) Add(key + ToHex(*color));
   }
 
   // Of points.
@@ -254,7 +254,7 @@ class StyleReader {
   }
 
   void AddShapeAndSize() {
-    const std::string shape = has_.shapes == nullptr ? "" : TextOf(properties_, has_.shapes, "");
+    const std::string shape = has_.shapes == nullptr ? "" : TextOf(display_, "Shape", "");
     double size = 0;
     const bool are_many = kind_ == "rviz/PoseArray";
     if (shape == "Axes") {
@@ -329,7 +329,7 @@ class StyleReader {
       Add("shape=arrows");
       length = AddArrowParts(display_, {0.1, 0.1, 0.2, 0.3}, "Shaft Diameter", "Head Diameter");
       if (length == 0) length = 0.3;
-      AddColor("pose_color=", "Pose Color", {1, 1.0 / 3, 1});
+      AddColor("pose_color=", "Pose Color");
     } else if (poses != "None") {
       Remark("Pose Style '" + poses + "': poses along the line are not drawn");
     }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "server/options/text.h"
+#include "server/picture/color_names.h"
 
 namespace kinescope::app::rviz {
 namespace {
@@ -41,12 +42,15 @@ std::optional<Rgb> ParseLevels(const std::string& text) {
 }
 
 std::optional<Rgb> ParseColor(const std::string& text) {
-  const auto levels = ParseLevels(text);
-  return levels ? levels : ParseHex(text);
+  if (const auto levels = ParseLevels(text)) return levels;
+  const auto hex = ParseHex(text);
+  return hex ? hex : FindColorByName(text);
 }
 
-// The text of a property; one that has children has its own beside them.
+// The text of a property; one that has children has its own beside them. A property that may have
+// children and has none is its own value.
 std::optional<std::string> ScalarOf(const YAML::Node& map, const std::string& name) {
+  if (name == "Value" && map.IsDefined() && map.IsScalar()) return map.Scalar();
   YAML::Node value = Member(map, name);
   if (value.IsDefined() && value.IsMap()) value = Member(value, "Value");
   if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
@@ -110,9 +114,13 @@ Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name) {
 
 bool IsColor(const std::string& text) { return ParseColor(text).has_value(); }
 
-Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise) {
+std::optional<Rgb> FindColor(const YAML::Node& map, const std::string& name) {
   const auto text = ScalarOf(map, name);
-  return text ? ParseColor(*text).value_or(otherwise) : otherwise;
+  return text ? ParseColor(*text) : std::nullopt;
+}
+
+Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise) {
+  return FindColor(map, name).value_or(otherwise);
 }
 
 bool AddHidden(const std::string& name, std::string& names) {

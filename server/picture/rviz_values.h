@@ -31,8 +31,10 @@ Limit LimitOf(const YAML::Node& map, const std::string& name, double otherwise, 
               double most);
 /// 0 unless X, Y and Z are numbers.
 Eigen::Vector3d VectorOf(const YAML::Node& map, const std::string& name);
-/// Whether it is "r; g; b", each a whole number, or #rgb or #rrggbb. RViz takes names, too.
+/// Whether it is "r; g; b", each a whole number, or #rgb, #rrggbb or a name of SVG.
 bool IsColor(const std::string& text);
+/// nullopt: `map` has none of that name, or it is another text.
+std::optional<Rgb> FindColor(const YAML::Node& map, const std::string& name);
 /// `otherwise` also where there is another text. Numbers beyond 0 to 255 are the nearest of these.
 Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise);
 

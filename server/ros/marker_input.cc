@@ -58,6 +58,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const auto erase = [&](auto from, auto to) {
     for (auto entry = from; entry != to; ++entry) Release(entry->second);
     has_changed_ = has_changed_ || from != to;
+    has_new_ = true;
     return entries_.erase(from, to);
   };
   if (message.action == Marker::DELETEALL) {
@@ -107,7 +108,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   if (is_cloud && AxisOf(style)) entry.axis_style = style;
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;
-  entry.is_new = true;
+  entry.is_new = has_new_ = true;
   const std::int64_t lives = message.lifetime.toNSec();
   entry.dies_nanos = lives > 0 ? monotonic_nanos + lives : 0;
   entry.came_nanos = monotonic_nanos;
@@ -253,6 +254,12 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
 }
 
 bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
+  // Thousands of markers are looked at less often than there are samples.
+  constexpr std::size_t kFew = 256;
+  constexpr std::int64_t kNanosPerMarker = 1000;
+  const bool is_new = std::exchange(has_new_, false);
+  if (entries_.size() > kFew && !is_new && monotonic_nanos < next_look_nanos_) return false;
+  next_look_nanos_ = monotonic_nanos + static_cast<std::int64_t>(entries_.size()) * kNanosPerMarker;
   bool changed = std::exchange(has_changed_, false);
   // A marker that moves is copied with its points, at about 10 ns each.
   constexpr std::int64_t kNanosPerPoint = 100;
@@ -307,6 +314,7 @@ void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
 
 void MarkerStore::PlaceAgain() {
   for (auto& [key, entry] : entries_) entry.is_new = true;
+  has_new_ = true;
   next_retry_nanos_ = 0;
 }
 

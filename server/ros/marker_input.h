@@ -117,6 +117,8 @@ class MarkerStore {
   std::size_t points_ = 0;          // in all entries
   std::size_t waiting_points_ = 0;  // in messages that wait
   bool has_changed_ = false;
+  bool has_new_ = false;               // since Update() looked last
+  std::int64_t next_look_nanos_ = 0;   // monotonic clock; at those of which none is new
   std::int64_t next_move_nanos_ = 0;   // monotonic clock; of markers locked to their frame
   std::int64_t next_retry_nanos_ = 0;  // monotonic clock; of markers without a place
   Markers placed_;

@@ -177,7 +177,12 @@ BridgeStatus MasterRegistration::status() const {
     status.inputs.merge(inbox.counters());
     for (std::string& text : inbox.not_shown()) status.not_shown.push_back(std::move(text));
   }
-  if (wiring_.robots) status.inputs.merge(wiring_.robots->counters());
+  if (wiring_.robots) {
+    status.inputs.merge(wiring_.robots->counters());
+    for (std::string& text : wiring_.robots->not_shown()) {
+      status.not_shown.push_back(std::move(text));
+    }
+  }
   for (const auto& [character, slot] : slots_) {
     if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
   }

@@ -113,6 +113,7 @@ void RobotInbox::TakeUp(std::size_t i, RobotState robot) {
   InputCounters& counters = counters_[NameOf(i)];
   ++counters.received;
   ++counters.used;
+  counters.last_problem.clear();
 }
 
 void RobotInbox::SetProblem(std::size_t i, const std::string& why) {
@@ -188,16 +189,28 @@ void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
     if (std::exchange(slot.warned_of, "").empty()) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     counters_[NameOf(i)].last_problem.clear();
+    not_shown_.erase(i);
     return;
   }
   if (slot.incomplete_nanos == 0) slot.incomplete_nanos = monotonic_nanos;
   if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
-  if (std::exchange(slot.warned_of, problem) == problem) return;
   const std::string& frame = frame_->name();
-  spdlog::warn("{}: {} ({}); does robot_state_publisher run, and is '{}' connected to it in TF?",
-               NameOf(i), problem, WhyNotFound(*tf_, slot.frames->FirstMissing(), frame), frame);
+  const std::string text = fmt::format("{}: {} ({})", NameOf(i), problem,
+                                       WhyNotFound(*tf_, slot.frames->FirstMissing(), frame));
+  if (std::exchange(slot.warned_of, text) == text) return;
+  spdlog::warn("{}; does robot_state_publisher run, and is '{}' connected to it in TF?", text,
+               frame);
   const std::lock_guard<std::mutex> lock(mutex_);
   counters_[NameOf(i)].last_problem = problem;
+  not_shown_[i] = text;
+}
+
+std::vector<std::string> RobotInbox::not_shown() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> all;
+  all.reserve(not_shown_.size());
+  for (const auto& [i, text] : not_shown_) all.push_back(text);
+  return all;
 }
 
 std::map<std::string, InputCounters> RobotInbox::counters() const {

@@ -62,6 +62,8 @@ class RobotInbox {
 
   /// By robot: "robot /robot_description". Any thread.
   std::map<std::string, InputCounters> counters() const;
+  /// Links that have had no place for a while, as those of markers in MarkerInbox. Any thread.
+  std::vector<std::string> not_shown() const;
 
  private:
   struct Slot {
@@ -93,6 +95,7 @@ class RobotInbox {
   std::map<std::size_t, std::int64_t> missed_;     // guarded by mutex_; since when; monotonic clock
   ShownJoints joints_;                             // guarded by mutex_; of slots_
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+  std::map<std::size_t, std::string> not_shown_;   // guarded by mutex_
   std::unique_ptr<RobotLoader> loader_;  // of SetDescription(); null: it was not needed yet
 };
 

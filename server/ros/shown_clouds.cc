@@ -38,6 +38,12 @@ std::size_t StepOf(std::uint64_t points, const ShownStyle& style) {
   return static_cast<std::size_t>((points + style.most_points - 1) / style.most_points);
 }
 
+// 0xAARRGGBB; the first has no meaning here.
+std_msgs::ColorRGBA ColorOfBits(std::uint32_t bits) {
+  return Color(static_cast<int>(bits >> 16 & 255), static_cast<int>(bits >> 8 & 255),
+               static_cast<int>(bits & 255));
+}
+
 // A number in a point of a cloud.
 class CloudField {
  public:
@@ -88,12 +94,10 @@ class CloudField {
       default: return Read<double>(at);
     }
   }
-  // Of four bytes: 0xAARRGGBB; of "rgb", the first has no meaning.
+  // Of four bytes.
   std_msgs::ColorRGBA Packed(const std::uint8_t* point) const {
     const auto bits = Read<std::uint32_t>(point + offset_);
-    std_msgs::ColorRGBA color =
-        Color(static_cast<int>(bits >> 16 & 255), static_cast<int>(bits >> 8 & 255),
-              static_cast<int>(bits & 255));
+    std_msgs::ColorRGBA color = ColorOfBits(bits);
     if (has_alpha_) color.a = static_cast<float>(bits >> 24) / 255.0F;
     return color;
   }
@@ -190,13 +194,20 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const ShownStyle& style) {
   Marker points = PointsOf(message.header, style, kPointSize);
-  const std::vector<std::string> names = NamesOf(FieldOf(style));
-  const auto channel =
-      std::find_if(message.channels.begin(), message.channels.end(), [&](const auto& each) {
-        return std::find(names.begin(), names.end(), each.name) != names.end() &&
-               each.values.size() == message.points.size();
-      });
+  const auto find = [&](const std::vector<std::string>& names) {
+    const auto found =
+        std::find_if(message.channels.begin(), message.channels.end(), [&](const auto& each) {
+          return std::find(names.begin(), names.end(), each.name) != names.end() &&
+                 each.values.size() == message.points.size();
+        });
+    return found == message.channels.end() ? nullptr : &found->values;
+  };
+  // A number whose bits are the colour, as in PointCloud2.
+  const std::vector<float>* const packed = style.color || style.scale ? nullptr : find({"rgb"});
+  const std::vector<float>* const channel =
+      packed != nullptr ? nullptr : find(NamesOf(FieldOf(style)));
   std::vector<double> values;
+  std::vector<std_msgs::ColorRGBA> colors;
   const std::size_t step = StepOf(message.points.size(), style);
   for (std::size_t i = 0; i < message.points.size(); i += step) {
     const geometry_msgs::Point32& point = message.points[i];
@@ -204,11 +215,13 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
         static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));
     if (!std::isfinite(place.x + place.y + place.z)) continue;
     points.points.push_back(place);
-    if (channel != message.channels.end()) {
-      values.push_back(static_cast<double>(channel->values[i]));
-    }
+    if (channel != nullptr) values.push_back(static_cast<double>((*channel)[i]));
+    if (packed == nullptr) continue;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &(*packed)[i], sizeof bits);
+    colors.push_back(In(style, ColorOfBits(bits)));
   }
-  points.colors = ColorsOf(values, style);
+  points.colors = packed != nullptr ? std::move(colors) : ColorsOf(values, style);
   return PointsOrNone(std::move(points));
 }
 

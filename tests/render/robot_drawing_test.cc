@@ -182,6 +182,26 @@ TEST_F(RobotDrawing, ShowsALabelledBoxForAMissingOrRejectedMeshAndNamesIt) {
   EXPECT_THAT(renderer_->problems(), ::testing::IsEmpty());
 }
 
+// RViz sorts what shines through by distance; the opaque ones behind it are there before.
+TEST_F(RobotDrawing, DrawsTranslucentRobotsOverOpaqueMarkersBehindThem) {
+  const RobotState robot = Visual(
+      "<origin xyz='0 0 1'/><geometry><box size='0.4 0.4 0.4'/></geometry><material name='m'>"
+      "<color rgba='1 0 0 0.5'/></material>");
+  auto wall = std::make_shared<SceneMarker>();
+  wall->type = MarkerType::kCube;
+  wall->pose.position = {-2, 0, 1};
+  wall->scale = {0.1, 3, 3};
+  wall->color = {0, 0, 1, 1};
+  SceneState alone = SceneOf({}), both = SceneOf({robot});
+  alone.markers = both.markers = {wall};
+  alone.extent = both.extent = ExtentOf({}, {wall});
+  const Eigen::Vector3d front(0.2, 0, 1);
+  const auto before = ColorAt(renderer_->Render(alone, Front(), spec_), Front(), front);
+  const auto after = ColorAt(renderer_->Render(both, Front(), spec_), Front(), front);
+  EXPECT_GT(after[0], before[0] + 50) << "half of it is the robot's red";
+  EXPECT_GT(after[2], 50) << "and half the blue behind";
+}
+
 // As RViz does it.
 TEST_F(RobotDrawing, PrefersColoursOfTheFileToThoseOfTheUrdf) {
   Write("box.dae", kinescope::testing::BoxDae());

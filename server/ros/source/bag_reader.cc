@@ -25,7 +25,7 @@ constexpr std::uint32_t kLargestConnection = 4 << 20;   // with the text of the 
 constexpr std::size_t kMostConnectionBytes = 16 << 20;  // of all names that are kept
 constexpr std::uint64_t kSeekFrom = 256 * 1024;         // bytes; fewer are read faster than sought
 constexpr std::size_t kPackedBlock = 64 * 1024;
-constexpr std::size_t kLargestChecked = 16 << 20;  // bytes; rosbag makes chunks of 768 kB
+constexpr std::size_t kLargestKept = 8 << 20;  // bytes; rosbag makes chunks of 768 kB
 
 constexpr char kBeyondChunk[] = "record that extends beyond its chunk";
 constexpr char kBadHeader[] = "record with a damaged header";
@@ -35,6 +35,7 @@ constexpr char kUnknownConnection[] = "message of a connection that the bag does
 constexpr char kNotUnpacked[] = "chunk that cannot be decompressed";
 constexpr char kBadChecksum[] =
     "chunk that fails its checksum or cannot be decompressed, with all of its messages";
+constexpr char kUsedBefore[] = "chunk that fails its checksum after its messages were used";
 constexpr char kBadChunkLength[] = "chunk with a damaged length";
 constexpr char kCutOff[] = "record that is cut off by the end of the bag";
 constexpr char kBadIndex[] = "index with a damaged length";
@@ -193,7 +194,7 @@ bool BagReader::ReadUnpacked(char* to, std::size_t size) {
     const ssize_t count = chunk_->unpacker->Read(to, size);
     if (count <= 0) {
       // The file may end inside the chunk, or the chunk inside a record.
-      if (std::feof(file_.get()) != 0 || std::ferror(file_.get()) != 0) {
+      if (EndsInChunk()) {
         EndOfFile();
       } else {
         LoseFraming(kNotUnpacked);
@@ -398,10 +399,45 @@ void BagReader::OpenChunk(const BagRecordHeader& header, std::uint32_t size) {
   chunk_->left_in_file = is_complete ? size : kToTheEnd;
   chunk_->left = is_complete ? unpacked_size : kToTheEnd;
   if (!header.IsOfChunk()) return LoseFraming(kNotUnpacked);
-  chunk_->unpacker = std::make_unique<Decompressor>(
-      [this](const void** bytes) { return ReadPacked(bytes); },
-      header.compression == "bz2" ? Decompressor::Format::kBzip2 : Decompressor::Format::kLz4);
-  if (is_complete && unpacked_size <= kLargestChecked) UnpackChecked();
+  const auto format =
+      header.compression == "bz2" ? Decompressor::Format::kBzip2 : Decompressor::Format::kLz4;
+  chunk_->unpacker = MakeUnpacker(format);
+  if (!is_complete) return;
+  if (unpacked_size <= kLargestKept) return UnpackChecked();
+  if (can_seek_ && ahead_read_ == ahead_.size()) CheckAhead(format);
+}
+
+std::unique_ptr<Decompressor> BagReader::MakeUnpacker(Decompressor::Format format) {
+  return std::make_unique<Decompressor>([this](const void** bytes) { return ReadPacked(bytes); },
+                                        format);
+}
+
+bool BagReader::EndsInChunk() const {
+  return std::feof(file_.get()) != 0 || std::ferror(file_.get()) != 0;
+}
+
+// Twice as much work, but no memory for all of it.
+void BagReader::CheckAhead(Decompressor::Format format) {
+  const off_t begin = ftello(file_.get());
+  const std::uint64_t at = at_, left_in_file = chunk_->left_in_file;
+  std::vector<char> unused(kPackedBlock);
+  std::uint64_t unpacked = 0;
+  ssize_t count = 1;
+  while (count > 0 && unpacked <= chunk_->left) {
+    count = chunk_->unpacker->Read(unused.data(), unused.size());
+    unpacked += static_cast<std::uint64_t>(std::max<ssize_t>(count, 0));
+  }
+  if (count < 0 && !EndsInChunk()) return LoseFraming(kBadChecksum);
+  if (begin < 0 || fseeko(file_.get(), begin, SEEK_SET) != 0) {
+    return End(Ending::Kind::kUnreadable, "it cannot be sought in");
+  }
+  at_ = at;
+  if (count == 0 && unpacked != chunk_->left) {
+    Count(kOtherLength);
+    chunk_->left = unpacked;
+  }
+  chunk_->left_in_file = left_in_file;
+  chunk_->unpacker = MakeUnpacker(format);
 }
 
 // The checksum comes last. What fails it may be wrong in any place: a velocity, a load.
@@ -410,22 +446,25 @@ void BagReader::UnpackChecked() {
   unpacked_.clear();
   unpacked_read_ = 0;
   ssize_t count = 1;
-  while (count > 0 && unpacked_.size() <= kLargestChecked) {
+  while (count > 0 && unpacked_.size() <= kLargestKept) {
     const std::size_t before = unpacked_.size();
     unpacked_.resize(before + kPackedBlock);
     count = chunk_->unpacker->Read(unpacked_.data() + before, kPackedBlock);
     unpacked_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   }
-  if (count < 0 && (std::feof(file_.get()) != 0 || std::ferror(file_.get()) != 0)) {
+  if (count < 0 && EndsInChunk()) {
     chunk_->left = std::numeric_limits<std::uint64_t>::max();  // the file ends in it
     return;
   }
   if (count != 0) return LoseFraming(kBadChecksum);
-  if (chunk_->left != unpacked_.size()) Count(kBadChunkLength);
+  if (chunk_->left != unpacked_.size()) Count(kOtherLength);
   chunk_->left = unpacked_.size();
 }
 
 void BagReader::CloseChunk() {
+  // Its checksum is at its end.
+  const bool is_read = chunk_->left == 0 && chunk_->unpacker != nullptr && !chunk_->is_checked;
+  if (char next = 0; is_read && chunk_->unpacker->Read(&next, 1) < 0) Count(kUsedBefore);
   const std::uint64_t left = chunk_->left_in_file;
   chunk_.reset();
   SkipInFile(left);

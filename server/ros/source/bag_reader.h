@@ -42,7 +42,8 @@ InputFile OpenBagFile(const std::string& path);
 /// truncated, or is compressed as a whole. Where the record of a connection is damaged, the index
 /// has it again. Memory is limited, whatever the lengths in the file
 /// state: messages that are not wanted are skipped. Of a compressed chunk that fails its checksum
-/// no message is used; one of more than 16 MiB is decompressed while it is read, unchecked.
+/// no message is used. One of more than 8 MiB is decompressed twice, to check it first; where the
+/// bag is compressed as a whole, it is checked after its messages.
 ///
 /// A damaged record is counted in defects(). If it has a wrong length, reading goes on with the
 /// next chunk: where this one ends, or where the header of a chunk is found.
@@ -50,6 +51,9 @@ class BagReader {
  public:
   static constexpr std::size_t kLargestMessage = 64 << 20;  // bytes; larger ones are not delivered
   static constexpr std::size_t kMaxConnections = 65536;
+  /// A defect by which nothing is lost.
+  static constexpr char kOtherLength[] =
+      "chunk of another length than it states, of which all was read";
 
   using IsWanted = std::function<bool(const BagConnection&)>;
 
@@ -97,6 +101,9 @@ class BagReader {
   void OpenChunk(const BagRecordHeader& header, std::uint32_t size);
   /// Unpacks the whole chunk, which only then can be checked.
   void UnpackChecked();
+  void CheckAhead(Decompressor::Format format);
+  std::unique_ptr<Decompressor> MakeUnpacker(Decompressor::Format format);
+  bool EndsInChunk() const;  // the file does
   void CloseChunk();
 
   // False: the rest of the record is not there; that has been noted.

@@ -95,14 +95,20 @@ class SampleWatch : public SampleSink {
 std::string DamageIn(const BagMessages& messages) {
   std::uint64_t count = 0;
   std::vector<std::string> kinds;
+  std::string harmless;
   for (const auto& [defect, records] : messages.defects()) {
+    const std::string kind = fmt::format("{}: {}", defect, records);
+    if (defect == BagReader::kOtherLength) {
+      harmless = kind;
+      continue;
+    }
     count += records;
-    kinds.push_back(fmt::format("{}: {}", defect, records));
+    kinds.push_back(kind);
   }
-  if (count == 0) return "";
-  return fmt::format("{} left out ({})",
+  if (count == 0) return harmless;
+  return fmt::format("{} left out ({}){}{}",
                      Counted(count, "damaged record was", "damaged records were"),
-                     fmt::join(kinds, ", "));
+                     fmt::join(kinds, ", "), harmless.empty() ? "" : "; ", harmless);
 }
 
 class BagSource : public Source {
@@ -110,6 +116,7 @@ class BagSource : public Source {
   BagSource(const std::string& path, const GraphView& view)
       : name_(path),
         tf_topic_(view.tf_topic.empty() ? "/tf" : WithSlash(view.tf_topic)),
+        has_chosen_tf_(!view.tf_topic.empty()),
         needs_person_(view.needs_person),
         surroundings_(view),
         messages_(OpenBagFile(path),
@@ -189,9 +196,11 @@ class BagSource : public Source {
 
   /// Why the bag has no person, and what to do about it.
   std::string WhyNobody(const BagMessages& all) const;
+  void WarnOfMissingTransforms(const BagMessages& all) const;
 
   const std::string name_;
   const std::string tf_topic_;
+  const bool has_chosen_tf_;  // else it is the usual topic
   const bool needs_person_;
   bool has_person_ = true;
   BagSurroundings surroundings_;
@@ -250,6 +259,7 @@ void BagSource::ReadNames() {
       links_.try_emplace(topic, OwnerOfTopic(topic), static_cast<int>(links_.size()));
     }
     rate_hz_ = of_link_states.begin()->second.rate_hz();
+    WarnOfMissingTransforms(ahead);
     return;
   }
   if (people_.people().empty() && !needs_person_ && ShowsSomething(ahead)) {
@@ -275,6 +285,23 @@ bool BagSource::ShowsSomething(const BagMessages& all) const {
            (surroundings_.ShowsFrames() && HasTransforms(connection) &&
             HasTransformType(connection));
   });
+}
+
+// The people come from link states, which have no frames of others.
+void BagSource::WarnOfMissingTransforms(const BagMessages& all) const {
+  std::set<std::string> others;
+  bool has_topic = !has_chosen_tf_;
+  for (const auto& [number, connection] : all.connections()) {
+    has_topic = has_topic || IsMoving(connection.topic);
+    if (HasTransformType(connection) && !IsStatic(connection.topic)) {
+      others.insert(WithSlash(connection.topic));
+    }
+  }
+  if (has_topic) return;
+  WarnOfBag(name_,
+            fmt::format(
+                "has no transforms on {} (--tf_topic){}", tf_topic_,
+                others.empty() ? "" : fmt::format("; it has some on {}", fmt::join(others, ", "))));
 }
 
 std::string BagSource::WhyNobody(const BagMessages& all) const {

@@ -152,6 +152,15 @@ class GraphSource : public Source {
   bool is_live() const override { return true; }
 
  private:
+  // Of the frames of a person.
+  struct Sender {
+    std::string node;
+    int swaps = 0;                             // of nodes, in a row
+    std::int64_t swapped_nanos = -kToldNanos;  // monotonic clock
+    std::string problem;
+    std::int64_t told_nanos = -kToldNanos;  // when it was so last; the same
+  };
+
   // Before the first person, time passes while frames come, and where there are none at all.
   void PassMoment(SampleSink& sink) {
     constexpr std::int64_t kEveryNanos = 33 * kNanosPerMilli, kQuietNanos = 2 * kNanosPerSecond;
@@ -260,29 +269,26 @@ class GraphSource : public Source {
   // another one take over.
   void NoteSender(const std::string& node, std::int64_t now) {
     constexpr std::size_t kMost = 64;
-    constexpr int kSwaps = 4;
-    const auto is_within = [&](std::int64_t then) { return now - then < kToldNanos; };
     if (transforms_.transforms.empty()) return;
     const std::string& frame = transforms_.transforms.front().child_frame_id;
     if (senders_.size() >= kMost && senders_.count(frame) == 0) return;
     Sender& sender = senders_[frame];
-    const bool is_other = !sender.node.empty() && sender.node != node;
-    if (is_other) {
-      sender.swaps = is_within(sender.swapped_nanos) ? sender.swaps + 1 : 1;
-      sender.swapped_nanos = now;
-      if (sender.swaps >= kSwaps) {
-        const bool is_known = is_within(sender.told_nanos);
-        sender.told_nanos = now;
-        if (!is_known) {
-          sender.problem = fmt::format(
-              "two nodes, {} and {}, send the frames of one person ('{}'): who is shown jumps "
-              "between them; give one of them another --model_name",
-              sender.node, node, PrintableLine(frame.substr(0, kLongestTypeName)));
-          spdlog::warn("{}", sender.problem);
-        }
-      }
-    }
+    if (!sender.node.empty() && sender.node != node) NoteSwap(sender, node, frame, now);
     sender.node = node;
+  }
+  static void NoteSwap(Sender& sender, const std::string& node, const std::string& frame,
+                       std::int64_t now) {
+    constexpr int kSwaps = 4;
+    sender.swaps = now - sender.swapped_nanos < kToldNanos ? sender.swaps + 1 : 1;
+    sender.swapped_nanos = now;
+    if (sender.swaps < kSwaps) return;
+    sender.told_nanos = now;
+    if (!sender.problem.empty()) return;
+    sender.problem = fmt::format(
+        "two nodes, {} and {}, send the frames of one person ('{}'): who is shown jumps "
+        "between them; give one of them another --model_name",
+        sender.node, node, PrintableLine(frame.substr(0, kLongestTypeName)));
+    spdlog::warn("{}", sender.problem);
   }
   static void Shift(ros::Time& stamp, std::int64_t nanos) {
     if (nanos != 0 && !stamp.isZero()) stamp = ToRosTime(ToNanos(stamp) + nanos);
@@ -305,19 +311,12 @@ class GraphSource : public Source {
 
   const std::string description_;
   WallOffset wall_{WallNanos(), MonotonicNanos()};
-  std::int64_t frames_nanos_ = 0;       // when the newest frames of TF came; monotonic clock
-  std::int64_t moment_nanos_ = 0;       // of the newest moment that was passed on; the same
-  std::int64_t newest_arrival_ = 0;     // wall clock; goes back only if that is set
-  std::uint64_t clock_steps_ = 0;       // times that it was set
-  RosClock clock_;                      // without a time unless it is simulated
-  std::map<int, std::int64_t> newest_;  // stamps, by character; if it is
-  struct Sender {
-    std::string node;
-    int swaps = 0;                             // of nodes, in a row
-    std::int64_t swapped_nanos = -kToldNanos;  // monotonic clock
-    std::string problem;
-    std::int64_t told_nanos = -kToldNanos;  // when it was so last; the same
-  };
+  std::int64_t frames_nanos_ = 0;          // when the newest frames of TF came; monotonic clock
+  std::int64_t moment_nanos_ = 0;          // of the newest moment that was passed on; the same
+  std::int64_t newest_arrival_ = 0;        // wall clock; goes back only if that is set
+  std::uint64_t clock_steps_ = 0;          // times that it was set
+  RosClock clock_;                         // without a time unless it is simulated
+  std::map<int, std::int64_t> newest_;     // stamps, by character; if it is
   std::map<std::string, Sender> senders_;  // by the first frame of a message
   PublisherClocks clocks_;
   TransformPeople people_;

@@ -12,6 +12,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/system/stop_signal.h"
 #include "server/ros/init.h"
 #include "server/ros/tcpros_limits.h"
 #include "server/ros/xmlrpc_limits.h"
@@ -99,6 +100,7 @@ void LiveTopics::AskRegularly() {
 }
 
 void LiveTopics::Ask() {
+  if (StopRequested()) return;  // roscpp may have been left already
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
   const RegistrationState state = master_.AskRegistration(our_uri, kMasterPatience);
   if ((node_ && !ros::ok()) || state == RegistrationState::kNameTaken) {

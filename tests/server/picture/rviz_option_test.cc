@@ -89,8 +89,9 @@ TEST(RvizOption, LetsTheCameraGoWithTheFrameOfTheViewWhereThereAreFrames) {
   EXPECT_EQ(apply("world", "Class: rviz/Orbit, Target Frame: world").camera_tf, "");
   const Applied odom = apply("odom", "Class: rviz/Orbit");
   EXPECT_EQ(odom.camera_tf, "odom:pose");
-  EXPECT_THAT(odom.said, HasSubstr("lab.rviz:2: Fixed Frame 'odom': the camera stands in it, the "
-                                   "floor is that of 'world'"));
+  EXPECT_THAT(odom.said,
+              HasSubstr("lab.rviz:2: Fixed Frame 'odom': the camera stands in it; the "
+                        "floor, and what is kept of earlier messages, stand in 'world'"));
   const Applied both = apply("odom", "Class: rviz/Orbit, Target Frame: cart");
   EXPECT_EQ(both.camera_tf, "cart:axes=odom");
   EXPECT_THAT(both.said, HasSubstr("Fixed Frame 'odom': the camera stands in it"));

@@ -16,6 +16,7 @@ using kinescope::testing::WithDisplays;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<RvizPicture::Topic> TopicsOf(const std::string& display) {
   return ReadText(WithDisplays("    - {Enabled: true, Name: A, " + display + "}\n")).topics;
@@ -339,6 +340,37 @@ TEST(RvizTopics, LeavesOutNamespacesOfMarkersOfOthers) {
   EXPECT_THAT((*value)[0].style.frames.hidden, ElementsAre("trees", "com", "my poles"));
 }
 
+// A property may be written with what is below it, or alone.
+TEST(RvizTopics, TakesPropertiesInBothForms) {
+  const auto style_of = [](const std::string& display) {
+    return ReadText(WithDisplays("    - {Enabled: true, Topic: /a, " + display + "}\n"))
+        .topics.at(0)
+        .style;
+  };
+  const std::string axes = style_of(
+      "Class: rviz/Odometry, Shape: {Value: Axes, Axes Length: 2}, Covariance: {Value: false}");
+  EXPECT_THAT(axes, HasSubstr("shape=axes"));
+  EXPECT_THAT(axes, HasSubstr("size=2"));
+  EXPECT_THAT(axes, Not(HasSubstr("covariance")));
+  EXPECT_EQ(style_of("Class: rviz/Odometry, Shape: Axes, Axes Length: 2, Covariance: false"), axes);
+  EXPECT_THAT(style_of("Class: rviz/PoseArray, Shape: {Value: Axes}"), HasSubstr("shape=axes"));
+  EXPECT_THAT(style_of("Class: rviz/PoseArray, Shape: Axes"), HasSubstr("shape=axes"));
+}
+
+TEST(RvizTopics, TakesNamesOfColours) {
+  const auto style_of = [](const std::string& color) {
+    return ReadText(WithDisplays("    - {Class: rviz/Path, Enabled: true, Topic: /a, Color: " +
+                                 color + "}\n"))
+        .topics.at(0)
+        .style;
+  };
+  EXPECT_EQ(style_of("red"), "(color=#ff0000)");
+  EXPECT_EQ(style_of("Light Blue"), "(color=#add8e6)");
+  EXPECT_EQ(style_of("yellowgreen"), "(color=#9acd32)") << "the last of all";
+  EXPECT_EQ(style_of("aliceblue"), "(color=#f0f8ff)");
+  EXPECT_EQ(style_of("reddish"), "") << "RViz's own is ours";
+}
+
 TEST(RvizTopics, NamesWhatIsDrawnOtherwise) {
   const auto remarks_of = [](const std::string& display) {
     return ReadText(WithDisplays("    - {Enabled: true, Name: A, " + display + "}\n")).remarks;
@@ -346,7 +378,9 @@ TEST(RvizTopics, NamesWhatIsDrawnOtherwise) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"Class: rviz/Grid, Offset: {X: 0, Y: 0, Z: 1e9}", "its Offset is too far"},
       {"Class: rviz/Grid, Plane Cell Count: 4000, Alpha: 1", "Plane Cell Count 4000 is taken"},
-      {"Class: rviz/Grid, Color: red", "Color 'red' is no r; g; b"},
+      {"Class: rviz/Grid, Color: 1 2 3",
+       "Color '1 2 3' is no r; g; b, #rrggbb or name of a colour; RViz's own is taken"},
+      {"Class: rviz/Path, Topic: /a, Color: [255, 0, 0]", "Color that is no text is no r; g; b"},
       {"Class: rviz/Grid, Alpha: none", "Alpha none is 0: it is not seen"},
       {"Class: rviz/Path, Topic: /a, Offset: {X: 1, Y: 0, Z: 0}", "Offset is not taken: the path"},
       {"Class: rviz/RobotModel, Collision Enabled: true", "Collision Enabled: collision geometry"},

@@ -705,6 +705,16 @@ TEST(ShownMessages, APointCloudOfTheOldTypeHasItsIntensities) {
   EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{255, 0, 0})) << "the least";
   cloud.channels[0].values.pop_back();
   EXPECT_THAT(ShownOf(cloud).at(0).colors, SizeIs(0)) << "not one for each point";
+  const std::uint32_t orange = 0xff8000;
+  float packed = 0;
+  std::memcpy(&packed, &orange, sizeof packed);
+  cloud.channels.push_back(cloud.channels[0]);
+  cloud.channels[1].name = "rgb";
+  cloud.channels[1].values = {packed, packed, packed};
+  EXPECT_EQ(RgbOf(ShownOf(cloud).at(0).colors.at(1)), (std::array<int, 3>{255, 128, 0}));
+  ShownStyle blue;
+  blue.color = Rgb{0, 0, 1};
+  EXPECT_THAT(ShownOf(cloud, blue).at(0).colors, SizeIs(0)) << "of the style";
 }
 
 TEST(GridMarker, HasTheLinesOfRviz) {
