@@ -52,7 +52,8 @@ std::optional<Rgb> ParseColor(const std::string& text) {
 std::optional<std::string> ScalarOf(const YAML::Node& map, const std::string& name) {
   if (name == "Value" && map.IsDefined() && map.IsScalar()) return map.Scalar();
   YAML::Node value = Member(map, name);
-  if (value.IsDefined() && value.IsMap()) value = Member(value, "Value");
+  // yaml-cpp: an assignment would change the tree, not this handle.
+  if (value.IsDefined() && value.IsMap()) value.reset(Member(value, "Value"));
   if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
   return value.Scalar();
 }

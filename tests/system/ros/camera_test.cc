@@ -153,7 +153,7 @@ TEST_F(CameraOverRos, HasTheSceneOverItsPictureWhereItIsCalibrated) {
   EXPECT_TRUE(Spin([&] {
     publish();
     said = Fetch(port, "/api/v1/diagnostics").json()["ros"]["inputs"][kTopic].dump();
-    return said.find("the scene is not drawn over its pictures: unknown frame 'eye'") !=
+    return said.find("the scene is not drawn over its pictures: frame 'eye' is not known yet") !=
            std::string::npos;
   })) << said;
   // How much of the magenta is hidden: by its name, and by the person before the camera.

@@ -537,7 +537,7 @@ TEST_F(BagSurroundingsTest, SayOnceThatACameraHasNoPlace) {
   EXPECT_FALSE(recorded.shown.images[0]->camera);
   const std::string text = log.text();
   const std::size_t at =
-      text.find("the scene is not drawn over its pictures: unknown frame 'nowhere'");
+      text.find("the scene is not drawn over its pictures: frame 'nowhere' is not known yet");
   ASSERT_NE(at, std::string::npos) << text;
   EXPECT_EQ(text.find("nowhere", at + 80), std::string::npos) << text;
 }

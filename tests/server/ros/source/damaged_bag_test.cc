@@ -215,12 +215,14 @@ using CheckedBagTest = DamagedBagTest;
 // rosbag's chunks have checksums. Without looking at them a changed byte is another motion.
 TEST_P(CheckedBagTest, HasNoOtherMotionAfterAChangedByte) {
   const std::string path = folder_ / "changed.bag";
+  bool is_named = false;
   const auto read = [&](const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
     TextSink sink;
     const auto source = OpenBag(path);
     while (source->Poll({}, sink) != Source::State::kEnded) {
     }
+    is_named = !source->counters().rejected.empty();
     return sink.samples;
   };
   constexpr std::uint32_t kOneChunk = 64 << 20;
@@ -236,7 +238,6 @@ TEST_P(CheckedBagTest, HasNoOtherMotionAfterAChangedByte) {
       SCOPED_TRACE(at);
       std::string bytes = whole;
       bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
-      const kinescope::testing::CapturedLog log;
       std::set<std::string> samples;
       try {
         samples = read(bytes);
@@ -249,7 +250,7 @@ TEST_P(CheckedBagTest, HasNoOtherMotionAfterAChangedByte) {
       for (const std::string& sample : samples) EXPECT_EQ(right.count(sample), 1U) << sample;
       if (samples.size() == right.size()) continue;
       ++left_out;
-      EXPECT_THAT(log.text(), HasSubstr("left out"));
+      EXPECT_TRUE(is_named);
     }
     EXPECT_GT(left_out, trials / 2);
   }
