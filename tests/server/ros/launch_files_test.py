@@ -3,6 +3,7 @@
 launch_files_test.py FOLDER: in a shell that has the devel space (ROS_PACKAGE_PATH)."""
 import os
 import pathlib
+import shlex
 import sys
 import unittest
 import unittest.mock
@@ -46,9 +47,9 @@ class LaunchFiles(unittest.TestCase):
         for name, arguments in (("xsens_client.launch", {}), ("kinescope.launch", {"rviz": "true"}), ("rviz.launch", {})):
             made = [node for node in load(name, **arguments).nodes if node.name == "rviz"]
             self.assertEqual([(node.package, node.args.split()[:2]) for node in made], [("kinescope", ["rviz", "--start"])], name)
-            named = [node for node in load(name, rviz_config_file="/mine.rviz", **arguments).nodes if node.name == "rviz"]
+            named = [node for node in load(name, rviz_config_file="/of me/a.rviz", **arguments).nodes if node.name == "rviz"]
             self.assertEqual([node.package for node in named], ["rviz"], name)
-            self.assertIn("-d /mine.rviz", named[0].args)
+            self.assertEqual(shlex.split(named[0].args)[:2], ["-d", "/of me/a.rviz"])
 
     def test_names_of_nodes_may_begin_with_a_slash(self):
         for node in ("lab", "/lab", "ns/lab"):
@@ -64,8 +65,9 @@ class LaunchFiles(unittest.TestCase):
 
     def test_paths_are_those_of_the_shell(self):
         with unittest.mock.patch.dict(os.environ, PWD="/here", HOME="/me"):
-            for given, wanted in (("/a/b", "/a/b"), ("b", "/here/b"), ("~/b", "/me/b")):
-                self.assertIn(f"-o {wanted} ", load("record.launch", bag=given).nodes[0].args)
+            for given, wanted in (("/a/b", "/a/b"), ("b", "/here/b"), ("~/b", "/me/b"), ("my b", "/here/my b")):
+                arguments = shlex.split(load("record.launch", bag=given).nodes[0].args)
+                self.assertEqual(arguments[arguments.index("-o") + 1], wanted)
                 for name, node in (("kinescope.launch", "kinescope"), ("monitor.launch", "kinescope_monitor")):
                     self.assertEqual(load(name, token_file=given).params[f"/{node}/token_file"].value, wanted)
             self.assertEqual(load("kinescope.launch").params["/kinescope/token_file"].value, "")
