@@ -21,7 +21,7 @@ struct ShownProperties {
   const char* only_if = nullptr;
   const char* not_if = "";
   const char* usually = "";
-  const char* shapes = nullptr;  // the property that says Axes, in place of an arrow
+  bool has_shape = false;  // "Shape" says Axes, in place of an arrow
 };
 constexpr char kNone[] = "";  // no property has this name
 constexpr char kDepthDisplay[] = "rviz/DepthCloud";
@@ -31,10 +31,10 @@ constexpr ShownProperties OfPoints(const char* kind) {
 }
 constexpr ShownProperties kTopicDisplays[] = {
     {"rviz/PointStamped", "Color", {"Radius"}},
-    {"rviz/Pose", "Color", {}, nullptr, "", "", "Shape"},
-    {"rviz/PoseWithCovariance", "Color", {}, nullptr, "", "", "Shape"},
-    {"rviz/Odometry", "Color", {}, nullptr, "", "", "Value"},
-    {"rviz/PoseArray", "Color", {"Arrow Length"}, nullptr, "", "", "Shape"},
+    {"rviz/Pose", "Color", {}, nullptr, "", "", true},
+    {"rviz/PoseWithCovariance", "Color", {}, nullptr, "", "", true},
+    {"rviz/Odometry", "Color", {}, nullptr, "", "", true},
+    {"rviz/PoseArray", "Color", {"Arrow Length"}, nullptr, "", "", true},
     {"rviz/Path", "Color", {"Line Width"}, "Line Style", "Lines", "Lines"},
     {"rviz/Polygon", "Color"},
     {"rviz/GridCells", "Color"},
@@ -254,7 +254,7 @@ class StyleReader {
   }
 
   void AddShapeAndSize() {
-    const std::string shape = has_.shapes == nullptr ? "" : TextOf(display_, "Shape", "");
+    const std::string shape = has_.has_shape ? TextOf(display_, "Shape", "") : "";
     double size = 0;
     const bool are_many = kind_ == "rviz/PoseArray";
     if (shape == "Axes") {
@@ -264,7 +264,7 @@ class StyleReader {
     } else if (shape == "Arrow (3D)") {
       Add("shape=arrows");
       size = AddArrowParts(properties_, {0.23, 0.01, 0.07, 0.03}, "Shaft Radius", "Head Radius");
-    } else if (!are_many && has_.shapes != nullptr) {
+    } else if (!are_many && has_.has_shape) {
       size = AddArrowParts(properties_, {1, 0.05, 0.3, 0.1}, "Shaft Radius", "Head Radius");
     } else if (has_.only_if == nullptr ||
                TextOf(display_, has_.only_if, has_.usually) != std::string(has_.not_if)) {

@@ -197,6 +197,9 @@ class BagSource : public Source {
   /// Why the bag has no person, and what to do about it.
   std::string WhyNobody(const BagMessages& all) const;
   void WarnOfMissingTransforms(const BagMessages& all) const;
+  bool HasMoving(const BagMessages& all) const;
+  /// The topics of transforms beside those that are read.
+  std::set<std::string> OtherTransforms(const BagMessages& all) const;
 
   const std::string name_;
   const std::string tf_topic_;
@@ -287,17 +290,24 @@ bool BagSource::ShowsSomething(const BagMessages& all) const {
   });
 }
 
+bool BagSource::HasMoving(const BagMessages& all) const {
+  return std::any_of(all.connections().begin(), all.connections().end(),
+                     [&](const auto& each) { return IsMoving(each.second.topic); });
+}
+
+std::set<std::string> BagSource::OtherTransforms(const BagMessages& all) const {
+  std::set<std::string> others;
+  for (const auto& [number, connection] : all.connections()) {
+    const bool is_wanted = IsMoving(connection.topic) || IsStatic(connection.topic);
+    if (HasTransformType(connection) && !is_wanted) others.insert(connection.topic);
+  }
+  return others;
+}
+
 // The people come from link states, which have no frames of others.
 void BagSource::WarnOfMissingTransforms(const BagMessages& all) const {
-  std::set<std::string> others;
-  bool has_topic = !has_chosen_tf_;
-  for (const auto& [number, connection] : all.connections()) {
-    has_topic = has_topic || IsMoving(connection.topic);
-    if (HasTransformType(connection) && !IsStatic(connection.topic)) {
-      others.insert(WithSlash(connection.topic));
-    }
-  }
-  if (has_topic) return;
+  if (!has_chosen_tf_ || HasMoving(all)) return;
+  const std::set<std::string> others = OtherTransforms(all);
   WarnOfBag(name_,
             fmt::format(
                 "has no transforms on {} (--tf_topic){}", tf_topic_,
@@ -305,16 +315,12 @@ void BagSource::WarnOfMissingTransforms(const BagMessages& all) const {
 }
 
 std::string BagSource::WhyNobody(const BagMessages& all) const {
-  std::set<std::string> others, shown;
-  bool has_topic = false;
+  std::set<std::string> shown;
   for (const auto& [number, connection] : all.connections()) {
     if (BagSurroundings::CanBeShown(connection)) shown.insert(WithSlash(connection.topic));
-    if (IsMoving(connection.topic)) {
-      has_topic = true;
-    } else if (HasTransformType(connection) && !IsStatic(connection.topic)) {
-      others.insert(connection.topic);
-    }
   }
+  const std::set<std::string> others = OtherTransforms(all);
+  const bool has_topic = HasMoving(all);
   std::string why =
       has_topic ? fmt::format(
                       "no person found on {}; expected 23 frames with segment names, such "
