@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -62,8 +63,10 @@ class ScopedVariable {
 int CountOfProcesses(const std::string& text) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string arguments = testing::ReadFile(entry.path() / "cmdline");
-    if (arguments.find(text) != std::string::npos) ++count;
+    // A process may end between the two: then this reads nothing, where ReadFile() throws.
+    std::ostringstream arguments;
+    arguments << std::ifstream(entry.path() / "cmdline").rdbuf();
+    if (arguments.str().find(text) != std::string::npos) ++count;
   }
   return count;
 }
