@@ -125,8 +125,10 @@ Taken<ShownMarkers> DepthClouds::ToMarkers(std::size_t topic, const CameraImage&
   if (!is_depth) return RefuseImage("an image of depths: expected 16UC1 or 32FC1");
   const auto known = topics_.find(topic);
   if (known == topics_.end() || !known->second.calibration) {
-    return tl::unexpected(Refusal{"no calibration yet",
-                                  "an image of depths: no calibration on camera_info beside it"});
+    Refusal refusal{"no calibration yet",
+                    "an image of depths: no calibration on camera_info beside it"};
+    refusal.may_come = true;
+    return tl::unexpected(std::move(refusal));
   }
   const ImageCamera& camera = known->second.calibration->camera;
   const CameraImage* colors = known->second.colors ? &*known->second.colors : nullptr;

@@ -124,9 +124,12 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::JointState& message, const Find
     }
   }
   if (is_known) return markers;
-  return tl::unexpected(Refusal{
-      "no such joint", "joint states: no robot that is shown has the joint '" + message.name[0] +
-                           "'; robots are shown by --robot, people have spheres for their loads"});
+  Refusal refusal{"no such joint", "joint states: no robot that is shown has the joint '" +
+                                       message.name[0] +
+                                       "'; robots are shown by --robot, people have spheres for "
+                                       "their loads"};
+  refusal.may_come = true;
+  return tl::unexpected(std::move(refusal));
 }
 
 }  // namespace kinescope::ros_bridge

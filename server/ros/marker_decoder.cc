@@ -41,19 +41,43 @@ void MarkerDecoder::OnMessage(std::size_t topic, const Event& event, bool has_co
     kept->second = {event, monotonic_nanos};
     return;
   }
-  DecodedMessage message{topic, monotonic_nanos};
-  Decode(topic, event, has_colors, message);
-  // One that a cloud keeps to itself is nothing to show.
-  const bool is_kept = IsCalibrationType(type) && !message.calibration && !message.refusal;
-  if (!is_kept) decoded_.push_back(std::move(message));
+  Add(topic, {event, monotonic_nanos}, has_colors, monotonic_nanos);
 }
 
-void MarkerDecoder::DecodeKept() {
+void MarkerDecoder::DecodeKept(std::int64_t monotonic_nanos) {
   for (const auto& [place, kept] : std::exchange(kept_, {})) {
-    DecodedMessage message{place.first, kept.monotonic_nanos};
-    Decode(place.first, kept.event, place.second, message);
-    if (!place.second || message.refusal) decoded_.push_back(std::move(message));
+    Add(place.first, kept, place.second, monotonic_nanos);
   }
+  for (auto& [topic, early] : early_) {
+    if (!early.newest) continue;
+    const Kept message = *std::exchange(early.newest, std::nullopt);
+    Add(topic, message, false, monotonic_nanos);
+  }
+}
+
+void MarkerDecoder::Add(std::size_t topic, const Kept& message, bool has_colors,
+                        std::int64_t now_nanos) {
+  DecodedMessage decoded{topic, message.monotonic_nanos};
+  Decode(topic, message.event, has_colors, decoded);
+  if (IsEarly(topic, message, decoded, now_nanos)) return;
+  // Calibrations and colours that a cloud keeps to itself are nothing to show.
+  const bool is_kept =
+      has_colors || (IsCalibrationType(Said(message.event, "md5sum")) && !decoded.calibration);
+  if (is_kept && !decoded.refusal) return;
+  if (const auto early = early_.find(topic); early != early_.end() && !is_kept) {
+    early->second.newest.reset();  // it is older
+  }
+  decoded_.push_back(std::move(decoded));
+}
+
+bool MarkerDecoder::IsEarly(std::size_t topic, const Kept& message, const DecodedMessage& decoded,
+                            std::int64_t now_nanos) {
+  constexpr std::int64_t kLongestWait = 1'000'000'000;
+  if (!decoded.refusal || !decoded.refusal->may_come) return false;
+  Early& early = early_.try_emplace(topic, Early{message.monotonic_nanos}).first->second;
+  if (now_nanos - early.since_nanos >= kLongestWait) return false;
+  early.newest = message;
+  return true;
 }
 
 void MarkerDecoder::DecodeMarkers(const RawMessage& raw, bool is_array, DecodedMessage& to) {

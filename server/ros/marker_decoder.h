@@ -46,8 +46,8 @@ class MarkerDecoder {
   /// @param has_colors  of HeardTopic
   void OnMessage(std::size_t topic, const Event& event, bool has_colors,
                  std::int64_t monotonic_nanos);
-  /// Decodes what is kept.
-  void DecodeKept();
+  /// Decodes what is kept, and once more what lacked something that may have come.
+  void DecodeKept(std::int64_t monotonic_nanos);
 
   /// Of the calls since the last one.
   std::vector<DecodedMessage> Take() { return std::exchange(decoded_, {}); }
@@ -58,6 +58,16 @@ class MarkerDecoder {
     std::int64_t monotonic_nanos = 0;
   };
 
+  /// Since a message of the topic lacked something that may come.
+  struct Early {
+    std::int64_t since_nanos = 0;
+    std::optional<Kept> newest = {};
+  };
+
+  /// Decodes it, or keeps it where it lacks something that may come.
+  void Add(std::size_t topic, const Kept& message, bool has_colors, std::int64_t now_nanos);
+  bool IsEarly(std::size_t topic, const Kept& message, const DecodedMessage& decoded,
+               std::int64_t now_nanos);
   void Decode(std::size_t topic, const Event& event, bool has_colors, DecodedMessage& to);
   void DecodeMarkers(const RawMessage& raw, bool is_array, DecodedMessage& to);
 
@@ -66,6 +76,7 @@ class MarkerDecoder {
   visualization_msgs::Marker marker_;                  // reused, keeps its memory
   visualization_msgs::MarkerArray array_;              // reused, keeps its memory
   std::map<std::pair<std::size_t, bool>, Kept> kept_;  // by topic and has_colors
+  std::map<std::size_t, Early> early_;                 // by topic
   std::vector<DecodedMessage> decoded_;
 };
 

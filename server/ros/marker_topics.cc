@@ -92,7 +92,7 @@ void MarkerInbox::OnMessage(std::size_t topic, const MarkerDecoder::Event& event
 }
 
 void MarkerInbox::FinishMessages() {
-  decoder_.DecodeKept();
+  decoder_.DecodeKept(MonotonicNanos());
   PassOn();
 }
 

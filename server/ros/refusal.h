@@ -14,6 +14,7 @@ struct Refusal {
   std::string text;         // one line with the values
   bool is_in_log = true;    // false: it is no error, or the log has it already
   bool is_partial = false;  // the rest of the message is used
+  bool may_come = false;    // what is missing: at the start, topics come in any order
 };
 inline Refusal Unreadable() {
   return {"unreadable", "a message that is truncated or has a wrong length field"};

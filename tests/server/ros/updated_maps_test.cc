@@ -196,14 +196,14 @@ TEST(MarkerDecoder, LeavesOutNoUpdateOfAMap) {
   decoder.OnMessage(0, event_of(GridType(), GridBytes(FreeMap())), false, 1);
   decoder.OnMessage(0, event_of(GridUpdateType(), GridBytes(WallsAt(0, 0))), false, 2);
   decoder.OnMessage(0, event_of(GridUpdateType(), GridBytes(WallsAt(2, 2))), false, 3);
-  decoder.DecodeKept();
+  decoder.DecodeKept(6);
   std::vector<DecodedMessage> decoded = decoder.Take();
   ASSERT_THAT(decoded, SizeIs(3));
   for (const DecodedMessage& message : decoded) EXPECT_FALSE(message.refusal);
   ExpectWalls(decoded[2].markers, {0, 1, 10, 11});
   decoder.OnMessage(0, event_of(GridUpdateType(), GridBytes(WallsAt(0, 2))), false, 4);
   decoder.OnMessage(0, event_of(GridType(), GridBytes(FreeMap())), false, 5);
-  decoder.DecodeKept();
+  decoder.DecodeKept(6);
   decoded = decoder.Take();
   ASSERT_THAT(decoded, SizeIs(2));
   ExpectWalls(decoded[1].markers, {});
