@@ -381,7 +381,7 @@ void Overlay::PaintMarkerTextsOf(Page& page, const DrawnView& drawn, const Backd
     const bool is_there = at.depth_m > 0 && std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5;
     if (!is_there) continue;
     PaintMarkerText(page, label, at,
-                    backdrop.InksAt(drawn.tile.x + at.x_px, drawn.tile.y + at.y_px));
+                    backdrop.ColorAt(drawn.tile.x + at.x_px, drawn.tile.y + at.y_px));
   }
 }
 
@@ -400,10 +400,9 @@ void Overlay::PaintMarkerTexts(Painter& painter, const std::vector<DrawnView>& d
 
 // Line by line, as high as it is in the world. In steps, so that a text that comes nearer does not
 // fill the font's memory with every size there is. Markers of RViz are often white, as the names of
-// frames: on a light background they have a dark panel.
-// @param inks  those that suit what is behind it
+// frames: on a light background they have a dark panel. The page has the same (surroundings.js).
 void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& at,
-                              const Inks& inks) {
+                              const Rgb& behind) {
   constexpr double kCapitalShare = 0.73;  // of a size, DejaVu Sans
   constexpr double kSmallest = 5, kLargest = 384, kLine = 1.2;
   const double wanted = label.height_m * at.px_per_m / kCapitalShare;
@@ -421,9 +420,9 @@ void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& a
     width = std::max(width, font.Width(texts.back(), size));
   }
   constexpr double kLeastContrast = 0.3;
-  const double lightness = Lightness(label.color);
-  if (std::abs(lightness - Lightness(inks.panel.color)) < kLeastContrast) {
-    Ink panel = (&inks == &kLightInks ? kDarkInks : kLightInks).panel;
+  const double lightness = Lightness(behind);
+  if (std::abs(Lightness(label.color) - lightness) < kLeastContrast) {
+    Ink panel = (lightness > 0.5 ? kDarkInks : kLightInks).panel;
     panel.alpha *= label.opacity;
     page.canvas.RoundedBox(at.x_px - width / 2 - 0.4 * size, y - 1.1 * size, width + 0.8 * size,
                            kLine * size * static_cast<double>(texts.size()) + 0.3 * size,

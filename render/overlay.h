@@ -72,7 +72,7 @@ class Overlay {
                   const std::vector<Label>& labels);
   void PaintLeader(Page& page, double x, double y, const LabelBox& box, const LabelPlace& place);
   void PaintMarkerTextsOf(Page& page, const DrawnView& drawn, const Backdrop& backdrop);
-  void PaintMarkerText(Page& page, const Label& label, const Projected& at, const Inks& inks);
+  void PaintMarkerText(Page& page, const Label& label, const Projected& at, const Rgb& behind);
 
   const DrawScene draw_scene_;
   std::unique_ptr<OverlayFonts> fonts_;

@@ -24,14 +24,14 @@ class Backdrop {
   Backdrop(const PictureSpec& spec, const std::vector<DrawnView>& views)
       : spec_(spec), views_(views) {}
 
-  /// For a text whose middle is at `x`, `y`, px of the picture.
+  /// What is at `x`, `y`, px of the picture, behind all that is drawn: the background or the floor.
+  Rgb ColorAt(double x, double y) const;
+  /// For a text whose middle is there.
   const Inks& InksAt(double x, double y) const;
   /// For texts beside the scene.
   const Inks& InksBesideScene() const;
 
  private:
-  Rgb ColorAt(double x, double y) const;
-
   const PictureSpec& spec_;
   const std::vector<DrawnView>& views_;
 };

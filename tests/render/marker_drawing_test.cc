@@ -209,7 +209,9 @@ TEST_F(MarkerDrawing, WritesTextsThatCanBeReadOnAnyBackground) {
     return std::pair(least, most);
   };
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
-    for (const double lightness : {0.0, 1.0}) {
+    spec_.look.theme = theme;
+    const double behind = BackgroundOf(spec_.look)[0];
+    for (const double lightness : {0.0, 1.0, behind > 0.5 ? behind - 0.27 : behind + 0.27}) {
       const auto [least, most] = darkest_and_brightest(lightness, theme);
       EXPECT_GT(most - least, 100) << lightness;
     }
