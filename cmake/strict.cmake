@@ -4,13 +4,14 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# What has been compiled once in a folder is not compiled again there, after a change of branch for one. (The two leniences are
-# what ccache needs to know a precompiled header again.)
+# What has been compiled once on a machine is not compiled again there: neither after a change of branch nor in another clone,
+# since what is compiled does not depend on the folder.
 find_program(KINESCOPE_CCACHE ccache)
 if(KINESCOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${KINESCOPE_CCACHE})
+    ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${KINESCOPE_CCACHE})
 endif()
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 # Sources of a target are compiled several at a time: reading the headers is most of their price. Off: one by one, as an editor's
 # language server likes it.
 option(CMAKE_UNITY_BUILD "Compile the sources of a target in batches" ON)

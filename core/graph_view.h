@@ -116,7 +116,8 @@ struct ShownStyle {
   std::optional<double> size_m;   // of a point, the width of a line, the length of an arrow, the
                                   // radius of a sphere
   std::optional<double> size_px;  // of points that are squares, in pixels of the picture, whatever
-                                  // their distance; in place of `size_m`
+                                  // their distance; in place of `size_m`. Of paths, polygons and
+                                  // flat arrows: their lines are one pixel wide
   /// Of axes, their diameter. Of a wrench RViz's "Arrow Width", of which a tenth is the diameter of
   /// the shaft; unset: as arrows of ground reaction forces.
   std::optional<double> width_m;
@@ -128,6 +129,7 @@ struct ShownStyle {
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
   bool is_costmap = false;                      // of a map: in colours of costs
   bool has_updates = false;  // of a map: with those that come on "<topic>_updates"
+  bool is_behind = false;    // of a map: below all others
   bool has_array = false;    // markers of "<topic>_array", too
   bool has_handles = true;   // of interactive markers: those of RViz's Interact tool alone
   WrenchArrows wrench = {};

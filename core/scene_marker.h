@@ -37,6 +37,9 @@ enum class MarkerType {
 /// "points", "text", "mesh", "triangle list".
 const char* Name(MarkerType type);
 
+/// Of flat things that others lie on, in the order in which they are drawn.
+enum class GroundLayer { kNone, kFirstMap, kMap, kCells };
+
 struct SceneMarker {
   std::string ns;  // namespace; with `id` its identity
   int id = 0;
@@ -51,7 +54,9 @@ struct SceneMarker {
   bool mesh_has_own_colors = false;     // use colours of the file, where it has any, instead of
                                         // `color`
   bool is_in_pixels = false;  // of kPoints: scale is in pixels of the picture, not in m; of
-                              // kLineList: lines of one pixel
+                              // kLineList and kLineStrip: lines of one pixel
+  // Of kTriangleList: unlit, and whatever lies on it is seen whole.
+  GroundLayer ground = GroundLayer::kNone;
 };
 
 /// Of the axes, arrows and names of all frames of TF, which need no legend.

@@ -18,7 +18,9 @@ class SurroundingsWriter {
  public:
   virtual ~SurroundingsWriter() = default;
 
-  /// World, metres, in the axes of GLB. Its nodes are named "markers" and "robot NAME". Of a robot
+  /// World, metres, in the axes of GLB. Its nodes are named "markers" and "robot NAME". What others
+  /// lie on, such as maps, has the material "ground", and its triangles are in the order in which
+  /// they are to be drawn. Of a robot
   /// that moves, the node has `extras` with `robot`, its number among these, and below it a node
   /// for each link, in the frame of the link, with `link`, its number in LinksToDraw(). The points
   /// of a marker are a node "points" with `extras`: `size`, width and height of their squares, in m

@@ -394,6 +394,7 @@ export class Scene {
       this.#trails.group, this.#surroundings.group);
     this.#shade.receiveShadow = true;
     this.#shade.material.depthWrite = false;  // the shadow lies on the grid and must not hide it
+    this.#grid.material.depthWrite = false;  // so that a map on it is not hidden
     this.#grid.position.z = -0.002;
     this.#floor.add(this.#shade, this.#grid);
     for (const each of this.#floor.children) each.layers.set(FLOOR_LAYER);

@@ -11,6 +11,8 @@ const CAPITAL_SHARE = 0.73; // of a font's size
 const LINE = 1.2;           // from line to line, of a font's size
 const TEXT_PIXELS = 64;     // size of the font of a label's texture
 const PANEL_OPACITY = 0.78; // behind a text, as in pictures
+const GROUND = 'ground';    // the material of what others lie on
+const GROUND_ORDER = -1;    // before all else that shines through
 const LEAST_CONTRAST = 0.3; // of a text without a panel, in lightness
 // From the axes of GLB to the world's: x forward, y left, z up.
 const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
@@ -173,6 +175,7 @@ function prepare(part, lightness) {
   if (isMesh(part)) {
     part.material.fog = false;  // only the floor ends in the distance
     part.castShadow = !part.material.transparent;
+    if (part.material.name === GROUND) layOnGround(part);
   } else if (isPoints(part)) {
     part.material = squares(part);
   } else if (isLines(part)) {
@@ -180,6 +183,13 @@ function prepare(part, lightness) {
   } else if ('text' in part.userData) {
     part.add(makeText(readLabelText(part.userData, 'extras'), lightness));
   }
+}
+
+/** What others lie on: as in pictures, it hides nothing that is a few pixels behind it, and its triangles are in their order.
+ *  @param {THREE.Mesh<THREE.BufferGeometry, THREE.Material>} part */
+function layOnGround(part) {
+  Object.assign(part.material, { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 16, depthWrite: false });
+  part.renderOrder = GROUND_ORDER;
 }
 
 /** Squares that face the camera, with the width of the file's: in the world, or in CSS pixels at any distance.

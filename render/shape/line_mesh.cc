@@ -78,6 +78,7 @@ void AppendTube(const std::vector<TubePoint>& all, int sides, int part, urdf::Me
       const Vector3d out = std::cos(angle) * across + std::sin(angle) * other;
       to.AddVertex((points[i].position + points[i].radius * out).cast<float>(), out.cast<float>());
     }
+    to.Paint(to.positions.size() - static_cast<std::size_t>(sides), points[i].color, part);
   }
   const auto around = static_cast<std::uint32_t>(sides);
   for (std::uint32_t i = 0; i + 1 < points.size(); ++i) {
@@ -88,9 +89,6 @@ void AppendTube(const std::vector<TubePoint>& all, int sides, int part, urdf::Me
     }
   }
   const std::uint32_t last = first + static_cast<std::uint32_t>(points.size() - 1) * around;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    to.Paint(first + i * around, points[i].color, part);
-  }
   const std::size_t caps = to.positions.size();
   AppendCap(points.front().position, -DirectionAt(points, 0), first, sides, false, to);
   to.Paint(caps, points.front().color, part);

@@ -1,6 +1,9 @@
 #include "render/shape/marker_shapes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "render/shape/marker_mesh.h"
 
@@ -16,6 +19,41 @@ bool IsTranslucent(const SceneMarker& marker) {
   const auto is_clear = [](const Eigen::Vector4d& color) { return color.w() < 1; };
   return marker.colors.empty() ? is_clear(marker.color)
                                : std::any_of(marker.colors.begin(), marker.colors.end(), is_clear);
+}
+
+// The lower first, so that what is above it covers it; then RViz's order of layers; then the larger
+// first, so that the map of a robot's surroundings is seen on that of the building.
+struct GroundOrder {
+  explicit GroundOrder(const SceneMarker& marker) : layer(marker.ground) {
+    constexpr double kLevel = 0.05;  // m; those of one level are coplanar
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& point : marker.points) box.extend(point.head<2>());
+    const Eigen::Vector3d first =
+        marker.pose.position + marker.pose.orientation * marker.points.front();
+    level = std::round(first.z() / kLevel);
+    area = marker.scale.head<2>().prod() * box.volume();
+  }
+  bool operator<(const GroundOrder& other) const {
+    return std::tuple(level, layer, other.area) < std::tuple(other.level, other.layer, area);
+  }
+
+  double level = 0;
+  GroundLayer layer;
+  double area = 0;
+};
+
+SceneMarker ListOf(const SceneMarker& strip) {
+  SceneMarker list = strip;
+  list.type = MarkerType::kLineList;
+  list.points.clear();
+  list.colors.clear();
+  for (std::size_t i = 0; i + 1 < strip.points.size(); ++i) {
+    list.points.insert(list.points.end(), {strip.points[i], strip.points[i + 1]});
+    if (!strip.colors.empty()) {
+      list.colors.insert(list.colors.end(), {strip.colors[i], strip.colors[i + 1]});
+    }
+  }
+  return list;
 }
 
 Label TextOf(const SceneMarker& marker) {
@@ -71,7 +109,18 @@ MarkerShapes MarkerReader::Read(const std::vector<std::shared_ptr<const SceneMar
   triangles_ = 0;
   MarkerShapes shapes;
   const std::size_t count = std::min(markers.size(), kMaxMarkers);
-  for (std::size_t i = 0; i < count; ++i) Add(*markers[i], shapes);
+  std::vector<std::pair<GroundOrder, const SceneMarker*>> ground;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SceneMarker& marker = *markers[i];
+    if (marker.ground == GroundLayer::kNone || FindDefect(marker) || marker.points.empty()) {
+      Add(marker, shapes);
+    } else {
+      ground.emplace_back(marker, &marker);
+    }
+  }
+  std::stable_sort(ground.begin(), ground.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [order, marker] : ground) AddTo(shapes.ground, *marker, shapes);
   if (markers.size() > kMaxMarkers) {
     shapes.problems.push_back(
         NotDrawn(*markers[kMaxMarkers], "there are " + std::to_string(markers.size()) +
@@ -101,13 +150,17 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
     to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
     return;
   }
-  if (marker.type == MarkerType::kLineList && marker.is_in_pixels) {
-    if (HasRoomFor(marker.points.size())) return AddLines(marker, to);
+  const bool is_strip = marker.type == MarkerType::kLineStrip;
+  if ((is_strip || marker.type == MarkerType::kLineList) && marker.is_in_pixels) {
+    if (HasRoomFor(marker.points.size())) return AddLines(is_strip ? ListOf(marker) : marker, to);
     to.problems.push_back(NotDrawn(marker, kTooManyTriangles));
     return;
   }
-  const bool is_blended = IsTranslucent(marker);
-  urdf::Mesh& mesh = is_blended ? to.blended : to.solid;
+  AddTo(IsTranslucent(marker) ? to.blended : to.solid, marker, to);
+}
+
+void MarkerReader::AddTo(MarkerSurface& surface, const SceneMarker& marker, MarkerShapes& to) {
+  urdf::Mesh& mesh = surface.mesh;
   const std::size_t first = mesh.positions.size();
   if (marker.type == MarkerType::kMesh) {
     AddMesh(marker, mesh, to);
@@ -118,12 +171,11 @@ void MarkerReader::Add(const SceneMarker& marker, MarkerShapes& to) {
   }
   if (mesh.positions.size() == first) return;
   Eigen::AlignedBox3f& box = to.boxes.emplace_back().box;
-  std::vector<std::string>& names = is_blended ? to.blended_names : to.solid_names;
   for (std::size_t i = first; i < mesh.positions.size(); ++i) {
     box.extend(mesh.positions[i]);
-    mesh.parts[i] = static_cast<float>(names.size());
+    mesh.parts[i] = static_cast<float>(surface.names.size());
   }
-  names.push_back(IdentityOf(marker));
+  surface.names.push_back(IdentityOf(marker));
 }
 
 void MarkerReader::AddPoints(const SceneMarker& marker, MarkerShapes& to) {

@@ -29,7 +29,7 @@ struct MarkerPoints : MarkerPlaces {
   bool is_in_pixels = false;  // `size` is in pixels of the picture, not in metres
 };
 
-/// Lines of one pixel of the picture, at any distance; each has two places.
+/// Lines of one pixel of the picture, at any distance; each has two places, also those of a strip.
 struct MarkerLines : MarkerPlaces {};
 
 /// Around a marker with triangles or points.
@@ -38,11 +38,16 @@ struct MarkerBox {
   float around_px = 0;  // reach of the marker beyond the box on the screen, for points in pixels
 };
 
+/// With their colours; the part of a vertex is the index of its marker's name, "walls/3".
+struct MarkerSurface {
+  urdf::Mesh mesh;
+  std::vector<std::string> names;
+};
+
 struct MarkerShapes {
-  urdf::Mesh solid,
-      blended;  // with their colours; `blended`: markers that let others shine through;
-                // the part of a vertex is the index of its marker's name
-  std::vector<std::string> solid_names, blended_names;  // "walls/3"
+  MarkerSurface ground;  // what others lie on, in the order in which it is drawn
+  MarkerSurface solid;
+  MarkerSurface blended;  // lets others shine through
   std::vector<MarkerPoints> points;
   std::vector<MarkerLines> lines;
   bool is_closed = true;  // no surface of `solid` is visible from its back
@@ -64,6 +69,7 @@ class MarkerReader {
   void Add(const SceneMarker& marker, MarkerShapes& to);
   static void AddPoints(const SceneMarker& marker, MarkerShapes& to);
   static void AddLines(const SceneMarker& marker, MarkerShapes& to);
+  void AddTo(MarkerSurface& surface, const SceneMarker& marker, MarkerShapes& to);
   void AddMesh(const SceneMarker& marker, urdf::Mesh& mesh, MarkerShapes& to);
   [[nodiscard]] bool HasRoomFor(std::size_t triangles);
   const VisualMesh& MeshOf(const std::string& uri);

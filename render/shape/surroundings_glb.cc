@@ -36,10 +36,12 @@ class Document {
     document["materials"] = {
         {{"pbrMetallicRoughness", surface}},
         {{"pbrMetallicRoughness", surface}, {"doubleSided", true}},
-        {{"pbrMetallicRoughness", surface}, {"doubleSided", true}, {"alphaMode", "BLEND"}}};
+        {{"pbrMetallicRoughness", surface}, {"doubleSided", true}, {"alphaMode", "BLEND"}},
+        {{"name", "ground"}, {"alphaMode", "BLEND"}, {"extensions", {{kUnlit, json::object()}}}}};
+    document["extensionsUsed"] = {kUnlit};
   }
 
-  enum Material { kClosed, kOpen, kBlended };
+  enum Material { kClosed, kOpen, kBlended, kGround };
 
   struct Part {
     const urdf::Mesh& mesh;
@@ -99,6 +101,7 @@ class Document {
 
  private:
   static constexpr std::size_t kRoot = 0;
+  static constexpr const char* kUnlit = "KHR_materials_unlit";
 
   // Returns its number.
   std::size_t AddNode(json node, std::size_t parent) {
@@ -221,8 +224,9 @@ std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const Scene
   Document document;
   MarkerShapes shapes = markers_.Read(markers);
   document.AddMeshes("markers",
-                     {{shapes.solid, shapes.is_closed ? Document::kClosed : Document::kOpen},
-                      {shapes.blended, Document::kBlended}});
+                     {{shapes.ground.mesh, Document::kGround},
+                      {shapes.solid.mesh, shapes.is_closed ? Document::kClosed : Document::kOpen},
+                      {shapes.blended.mesh, Document::kBlended}});
   for (const MarkerPoints& points : shapes.points) document.AddPoints(points);
   for (const MarkerLines& lines : shapes.lines) document.AddLines(lines);
   for (const Label& label : shapes.labels) document.AddLabel(label);

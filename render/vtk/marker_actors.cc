@@ -11,29 +11,29 @@ constexpr std::size_t kMaxMarkerTriangles = 2'000'000;  // of all markers togeth
 
 }  // namespace
 
-MarkerActors::MarkerActors()
-    : solid_(Pass::kSolid, PartActor::Light::kLit, 1),
-      blended_(Pass::kBlended, PartActor::Light::kLit, 1),
-      reader_(kMaxMarkerTriangles) {
-  for (PartActor* actor : {&solid_, &blended_}) {
-    actor->Place(0, Eigen::Affine3d::Identity());
-    actor->Commit();
-    actor->actor()->SetVisibility(false);
+MarkerActors::MarkerActors() : reader_(kMaxMarkerTriangles) {
+  for (Surface* surface : Surfaces()) {
+    surface->actor.Place(0, Eigen::Affine3d::Identity());
+    surface->actor.Commit();
+    surface->actor.actor()->SetVisibility(false);
   }
+}
+
+void MarkerActors::Show(MarkerSurface& shape, Surface& surface) {
+  surface.names = std::move(shape.names);
+  surface.actor.actor()->SetVisibility(!shape.mesh.triangles.empty());
+  if (!shape.mesh.triangles.empty()) surface.actor.SetMesh(shape.mesh);
 }
 
 void MarkerActors::Build() {
   MarkerShapes shapes = reader_.Read(markers_);
-  solid_.actor()->SetVisibility(!shapes.solid.triangles.empty());
-  blended_.actor()->SetVisibility(!shapes.blended.triangles.empty());
-  if (!shapes.solid.triangles.empty()) solid_.SetMesh(shapes.solid);
-  if (!shapes.blended.triangles.empty()) blended_.SetMesh(shapes.blended);
-  solid_.SetCulling(shapes.is_closed);
+  Show(shapes.ground, ground_);
+  Show(shapes.solid, solid_);
+  Show(shapes.blended, blended_);
+  solid_.actor.SetCulling(shapes.is_closed);
   for (PointActor* points : {&solid_points_, &blended_points_}) points->SetPoints(shapes.points);
   for (LineActor* lines : {&solid_lines_, &blended_lines_}) lines->SetLines(shapes.lines);
   boxes_ = std::move(shapes.boxes);
-  solid_names_ = std::move(shapes.solid_names);
-  blended_names_ = std::move(shapes.blended_names);
   labels_ = std::move(shapes.labels);
   problems_ = std::move(shapes.problems);
 }
@@ -54,8 +54,9 @@ void MarkerActors::SetViewSize(int width_px, int height_px) {
 
 std::vector<std::string> MarkerActors::NamesOf(const vtkActor* actor) {
   std::vector<std::string> names;
-  if (actor == solid_.actor()) names = solid_names_;
-  if (actor == blended_.actor()) names = blended_names_;
+  for (Surface* surface : Surfaces()) {
+    if (actor == surface->actor.actor()) names = surface->names;
+  }
   for (UnlitActor* unlit : Unlit()) {
     if (actor == unlit->actor()) names = unlit->names();
   }

@@ -1,5 +1,6 @@
-/// Renders the external markers in six draw calls: triangles, points and lines, the opaque ones and
-/// the others. They are rebuilt when one of them has changed since the picture before.
+/// Renders the external markers in seven draw calls: what others lie on, then triangles, points and
+/// lines, the opaque ones and the others. They are rebuilt when one of them has changed since the
+/// picture before.
 #pragma once
 
 #include <array>
@@ -33,10 +34,11 @@ class MarkerActors {
   /// marker and the reason.
   const std::vector<std::string>& problems() const { return problems_; }
   std::array<vtkActor*, 3> solid() {
-    return {solid_.actor(), solid_points_.actor(), solid_lines_.actor()};
+    return {solid_.actor.actor(), solid_points_.actor(), solid_lines_.actor()};
   }
-  std::array<vtkActor*, 3> blended() {
-    return {blended_.actor(), blended_points_.actor(), blended_lines_.actor()};
+  std::array<vtkActor*, 4> blended() {
+    return {ground_.actor.actor(), blended_.actor.actor(), blended_points_.actor(),
+            blended_lines_.actor()};
   }
   /// By part of one of these actors: "marker walls/3".
   std::vector<std::string> NamesOf(const vtkActor* actor);
@@ -48,14 +50,22 @@ class MarkerActors {
     return {&solid_points_, &blended_points_, &solid_lines_, &blended_lines_};
   }
 
-  PartActor solid_, blended_;
+  struct Surface {
+    PartActor actor;
+    std::vector<std::string> names;
+  };
+  std::array<Surface*, 3> Surfaces() { return {&ground_, &solid_, &blended_}; }
+  static void Show(MarkerSurface& shape, Surface& surface);
+
+  Surface ground_{PartActor(Pass::kGround, PartActor::Light::kFlat, 1), {}},
+      solid_{PartActor(Pass::kSolid, PartActor::Light::kLit, 1), {}},
+      blended_{PartActor(Pass::kBlended, PartActor::Light::kLit, 1), {}};
   PointActor solid_points_{false}, blended_points_{true};
   LineActor solid_lines_{false}, blended_lines_{true};
   MarkerReader reader_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused
   std::vector<MarkerBox> boxes_;                             // world
-  std::vector<std::string> solid_names_, blended_names_;
   std::vector<Label> labels_;
   std::vector<std::string> problems_;
 };

@@ -29,7 +29,15 @@ vtkStandardNewMacro(PassActor)
   state->SetEnumState(GL_DEPTH_TEST, pass_ != Pass::kBackdrop);  // it is drawn first
   state->vtkglDepthMask(pass_ == Pass::kSolid ? GL_TRUE : GL_FALSE);
   state->vtkglDepthFunc(pass_ == Pass::kGhost ? GL_GREATER : GL_LEQUAL);
+  if (pass_ != Pass::kGround) {
+    mapper->Render(renderer, this);
+    return;
+  }
+  constexpr float kPixels = 4, kUnits = 16;  // the latter RViz's
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(kPixels, kUnits);
   mapper->Render(renderer, this);
+  glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 }  // namespace kinescope::render

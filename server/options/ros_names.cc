@@ -232,8 +232,8 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
     style.is_costmap = text == "costmap";
     return style.is_costmap || text == "map";
   }
-  if (key == "updates") {
-    style.has_updates = text == "on";
+  if (key == "updates" || key == "behind") {
+    (key == "updates" ? style.has_updates : style.is_behind) = text == "on";
     return text == "on" || text == "off";
   }
   if (is_one_of(

@@ -500,6 +500,7 @@ class RvizReader {
     for (const auto& frame : frames) {
       if (!frame.first.IsScalar() || BoolOf(frame.second, "Value", true)) continue;
       const std::string name = frame.first.as<std::string>();
+      if (name == "All Enabled") continue;  // what the last click on it was: no frame
       if (IsFrameName(name)) {
         names += (names.empty() ? ",without=" : "|") + name;
       } else {

@@ -154,7 +154,7 @@ class Frames {
                             IsFrameName(picture_.fixed_frame);
       const bool is_there = Follow(
           target.frame, has_axes ? ":axes=" + picture_.fixed_frame : target.turn, has_camera);
-      is_in_fixed = is_in_fixed || (has_axes && is_there);
+      is_in_fixed = is_in_fixed || is_there;
     } else if (target.frame.empty() && !is_fixed_ours) {
       is_in_fixed = Follow(picture_.fixed_frame, ":pose", has_camera);
     }
@@ -212,8 +212,9 @@ class Frames {
     const std::string frame = !is_of_source_     ? "'" + ours_ + "'"
                               : HasTopics(list_) ? "the frame of the bag"
                                                  : "'" + ours_ + "', the frame of its source";
-    const std::string then = is_of_source_ || is_in_fixed
-                                 ? ""
+    const std::string then = is_of_source_ ? ""
+                             : is_in_fixed
+                                 ? ", or in the root of TF where that has none"
                                  : "; if the people are in that frame, give --reference_frame";
     spdlog::warn("{}:{}: Fixed Frame {}: {} {}{}", file_, picture_.fixed_frame_line,
                  Quoted(picture_.fixed_frame), what, frame, then);

@@ -65,12 +65,6 @@ constexpr ArrowProperties kArrowDisplays[] = {
     {"rviz/TwistStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"},
     {"rviz/AccelStamped", "Linear Arrow Scale", "Angular Arrow Scale", "Angular Color"}};
 
-// Of any of them: what makes a difference if it is on.
-struct Untaken {
-  const char* property;
-  const char* otherwise;
-};
-constexpr Untaken kUntaken[] = {{"Draw Behind", "it is drawn in front of what is below it"}};
 constexpr const char* kKeepingDisplay = "rviz/Odometry";
 constexpr const char* kHistories[] = {"History Length", "Buffer Length"};  // of other displays
 
@@ -97,7 +91,6 @@ class StyleReader {
     } else {
       AddLook();
     }
-    NameUntaken();
     if (!style_.text.empty()) style_.text = "(" + style_.text + ")";
     return std::move(style_);
   }
@@ -123,12 +116,15 @@ class StyleReader {
     AddEarlier();
   }
 
-  // RViz does not use that of lines.
-  bool HasAlpha() const {
-    const bool is_flat = TextOf(display_, "Shape", "Arrow (Flat)") == "Arrow (Flat)";
-    return kind_ != "rviz/Path" && kind_ != "rviz/Polygon" &&
-           !(kind_ == "rviz/PoseArray" && is_flat);
+  // Lines of one pixel.
+  bool HasThinLines() const {
+    if (kind_ == "rviz/Path") return TextOf(display_, "Line Style", "Lines") == "Lines";
+    if (kind_ != "rviz/PoseArray") return kind_ == "rviz/Polygon";
+    return TextOf(display_, "Shape", "Arrow (Flat)") == "Arrow (Flat)";
   }
+
+  // RViz does not use that of lines.
+  bool HasAlpha() const { return kind_ != "rviz/Path" && !HasThinLines(); }
 
   // As `property` has it, but within what is drawn, which is said.
   double Limited(const YAML::Node& node, const char* property, double usual, double least,
@@ -272,6 +268,7 @@ class StyleReader {
         if (part != nullptr) size += Metres(properties_, part, 0);
       }
     }
+    if (HasThinLines()) Add("pixels=1");
     AddPathPoses();
     if (has_.color == nullptr) {
       const std::string style = TextOf(display_, "Style", "");
@@ -392,6 +389,10 @@ class StyleReader {
       Remark("Color Scheme '" + scheme + "' is drawn as 'map'");
     }
     Add("updates=on");
+    if (BoolOf(display_, "Draw Behind", false)) {
+      Add("behind=on");
+      Remark("Draw Behind: it is drawn behind other maps, but in front of what is below it");
+    }
   }
 
   void AddEarlier() {
@@ -412,14 +413,6 @@ class StyleReader {
     }
     const double decay = number("Decay Time", 0, kLongestDecay);
     if (decay > 0) Add("decay=" + options::NumberText(decay));
-  }
-
-  void NameUntaken() {
-    for (const Untaken& each : kUntaken) {
-      if (BoolOf(display_, each.property, false)) {
-        Remark(std::string(each.property) + ": " + each.otherwise);
-      }
-    }
   }
 
   const YAML::Node display_;

@@ -109,6 +109,7 @@ void MarkerDecoder::Decode(std::size_t topic, const Event& event, bool has_color
   } else if (IsSingle(type) || IsArray(type)) {
     DecodeMarkers(raw, IsArray(type), to);
   } else if (TopicMarkers::IsShown(type, shown.style)) {
+    to.look = TopicMarkers::LookOf(type, shown.style);
     to.refusal = shown_.Take(topic, shown.name, shown.style, type, raw.bytes, to.markers);
   } else if (IsCalibrationType(type)) {
     Taken<Calibration> calibration = ReadCalibration(raw.bytes);

@@ -19,6 +19,7 @@
 #include "core/camera_image.h"
 #include "core/graph_view.h"
 #include "server/ros/calibration.h"
+#include "server/ros/marker_look.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/topic_markers.h"
 
@@ -29,10 +30,12 @@ struct DecodedMessage {
   std::size_t topic = 0;
   std::int64_t monotonic_nanos = 0;  // when it came
   ShownMarkers markers = {};
+  MarkerLook look = {};
   bool has_single_markers = false;  // each counts as a message
   std::optional<CameraImage> image = {};
   std::optional<Calibration> calibration = {};
   std::optional<Refusal> refusal = {};  // the rest is used all the same
+  bool is_end = false;                  // no message: what there was of the topic is erased
 };
 
 class MarkerDecoder {

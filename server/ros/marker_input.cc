@@ -25,7 +25,7 @@ bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
          a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
          a.color == b.color && a.points == b.points && a.colors == b.colors && a.text == b.text &&
          a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors &&
-         a.is_in_pixels == b.is_in_pixels;
+         a.is_in_pixels == b.is_in_pixels && a.ground == b.ground;
 }
 
 void SizeInPixels(SceneMarker& marker, double size_px) {
@@ -45,6 +45,24 @@ void ColourByPlace(SceneMarker& points, const ShownStyle& style) {
   for (const auto& color : ColorsOf(values, style)) points.colors.push_back(ColorOf(color));
 }
 
+bool AreLines(MarkerType type) {
+  return type == MarkerType::kLineStrip || type == MarkerType::kLineList;
+}
+
+// As of RViz, where lines shine through only if the colour of all of them does.
+void MakeOpaque(SceneMarker& lines) {
+  constexpr double kOpaque = 0.9998;
+  if (lines.color.w() < kOpaque) return;
+  for (Eigen::Vector4d& color : lines.colors) color.w() = 1;
+}
+
+void Take(const MarkerLook& look, SceneMarker& marker) {
+  if (marker.type == MarkerType::kTriangleList) marker.ground = look.ground;
+  if (!AreLines(marker.type)) return;
+  if (look.has_thin_lines) SizeInPixels(marker, 1);
+  if (!look.is_converted) MakeOpaque(marker);
+}
+
 bool IsLeftOut(const Marker& message, const ShownStyle& style) {
   const std::vector<std::string>& hidden = style.frames.hidden;
   return std::find(hidden.begin(), hidden.end(), message.ns) != hidden.end();
@@ -53,7 +71,8 @@ bool IsLeftOut(const Marker& message, const ShownStyle& style) {
 }  // namespace
 
 std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
-                                          std::int64_t monotonic_nanos, const ShownStyle& style) {
+                                          std::int64_t monotonic_nanos, const ShownStyle& style,
+                                          const MarkerLook& look) {
   if (IsLeftOut(message, style)) return std::nullopt;
   const auto erase = [&](auto from, auto to) {
     for (auto entry = from; entry != to; ++entry) Release(entry->second);
@@ -83,6 +102,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
   if (style.size_px && shape->type == MarkerType::kPoints) SizeInPixels(*shape, *style.size_px);
+  Take(look, *shape);
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMaxMarkers) {
     return RefusalOf("too many", message,
@@ -124,11 +144,11 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
 }
 
 std::optional<Refusal> MarkerStore::ApplyAll(std::size_t topic, const std::vector<Marker>& messages,
-                                             std::int64_t monotonic_nanos,
-                                             const ShownStyle& style) {
+                                             std::int64_t monotonic_nanos, const ShownStyle& style,
+                                             const MarkerLook& look) {
   std::optional<Refusal> first;
   for (const Marker& message : messages) {
-    auto refusal = Apply(topic, message, monotonic_nanos, style);
+    auto refusal = Apply(topic, message, monotonic_nanos, style, look);
     if (refusal && !first) first = std::move(refusal);
   }
   return first;

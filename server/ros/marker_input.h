@@ -20,6 +20,7 @@
 #include "core/scene_marker.h"
 #include "server/ros/force_input.h"
 #include "server/ros/frame_ways.h"
+#include "server/ros/marker_look.h"
 #include "server/ros/marker_message.h"
 
 namespace kinescope::ros_bridge {
@@ -42,12 +43,13 @@ class MarkerStore {
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
                                              std::int64_t monotonic_nanos,
-                                             const ShownStyle& style = {});
+                                             const ShownStyle& style = {},
+                                             const MarkerLook& look = {});
 
   /// All of them. @return why the first of those that were rejected was
   [[nodiscard]] std::optional<Refusal> ApplyAll(
       std::size_t topic, const std::vector<visualization_msgs::Marker>& messages,
-      std::int64_t monotonic_nanos, const ShownStyle& style = {});
+      std::int64_t monotonic_nanos, const ShownStyle& style = {}, const MarkerLook& look = {});
 
   /// Puts the axes of a frame, or a grid in it, into the store, for good. @pre frame.is_frame
   /// @throws UsageError if they cannot be shown

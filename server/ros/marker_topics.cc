@@ -96,6 +96,19 @@ void MarkerInbox::FinishMessages() {
   PassOn();
 }
 
+void MarkerInbox::Erase(const std::string& name) {
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    if (topics_[i].name != name || topics_[i].is_frame) continue;
+    DecodedMessage end{i, MonotonicNanos()};
+    end.markers.emplace_back();
+    end.markers.back().action = visualization_msgs::Marker::DELETEALL;
+    end.is_end = true;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_ += WeightOf(end);
+    decoded_.push_back(std::move(end));
+  }
+}
+
 // What waits is limited: the thread that reads samples may be slower than this one.
 void MarkerInbox::PassOn() {
   for (DecodedMessage& message : decoder_.Take()) {
@@ -135,8 +148,9 @@ void MarkerInbox::Take(DecodedMessage& message) {
     for (const auto& marker : message.markers) Take(topic, marker, message.monotonic_nanos);
     return;
   }
-  const auto undrawn =
-      store_.ApplyAll(topic, message.markers, message.monotonic_nanos, topics_[topic].style);
+  const auto undrawn = store_.ApplyAll(topic, message.markers, message.monotonic_nanos,
+                                       topics_[topic].style, message.look);
+  if (message.is_end) return;
   if (message.refusal) return Refuse(topic, *message.refusal);
   if (undrawn) return Refuse(topic, *undrawn);
   if (message.calibration) return images_.PutCalibration(topic, *message.calibration);

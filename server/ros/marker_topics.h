@@ -53,6 +53,9 @@ class MarkerInbox {
   /// After the messages that were there.
   void FinishMessages();
 
+  /// Erases what the topics of this name have. Any thread.
+  void Erase(const std::string& name);
+
   // The following functions are for the thread that reads samples.
 
   /// See MarkerStore::FirstFrame().

@@ -31,6 +31,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/starts_with.h"
+#include "core/system/utf8.h"
 #include "server/ros/init.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/running.h"
@@ -46,6 +47,7 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr std::uint32_t kMarkQueue = 100;
+constexpr std::size_t kLongestTypeName = 80;  // bytes
 constexpr std::int64_t kReadRobotsEveryNanos = 3 * kNanosPerSecond;
 
 // A parameter of a launch file has a type, an argument does not: text that is a number becomes one.
@@ -225,6 +227,7 @@ void MasterRegistration::RegisterRegularly() {
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
       markers_.clear();
+      heard_types_.clear();
       joint_states_.clear();
       robots_due_nanos_ = 0;
       marks_.reset();
@@ -247,6 +250,7 @@ void MasterRegistration::RegisterRegularly() {
     was_registered_ = true;
     SetParameters();
     ReadRobots();
+    FollowTypes();
     LookForMissingTopics();
   } while (WaitForNext());
 }
@@ -418,6 +422,60 @@ void MasterRegistration::ReadRobots() {
   }
 }
 
+// As the master has them.
+std::map<std::string, std::string> MasterRegistration::TypesOfHeardTopics() {
+  std::set<std::string> heard;
+  for (const auto* subscribers : {&markers_, &transforms_}) {
+    for (const ros::Subscriber& subscriber : *subscribers) heard.insert(subscriber.getTopic());
+  }
+  std::map<std::string, std::string> types;
+  MasterReply reply = master_.Call("getTopicTypes", XmlRpcValue());
+  const bool is_list =
+      reply.code == MasterReply::Code::kGood && reply.value.getType() == XmlRpcValue::TypeArray;
+  for (int i = 0; is_list && i < reply.value.size(); ++i) {
+    XmlRpcValue& topic = reply.value[i];  // [name, type]
+    const bool is_pair = topic.getType() == XmlRpcValue::TypeArray && topic.size() == 2 &&
+                         topic[0].getType() == XmlRpcValue::TypeString &&
+                         topic[1].getType() == XmlRpcValue::TypeString;
+    if (!is_pair) continue;
+    const std::string name = topic[0], type = topic[1];
+    if (heard.count(name) > 0 && type != "*") types[name] = type;
+  }
+  return types;
+}
+
+// roscpp keeps to the type of the first publisher of a topic: one of another type is turned away
+// without a word, also when the first has ended.
+void MasterRegistration::FollowTypes() {
+  constexpr std::int64_t kEveryNanos = 3'000'000'000;
+  const std::int64_t now = MonotonicNanos();
+  const bool hears_nothing = markers_.empty() && transforms_.empty();
+  if (hears_nothing || now - types_asked_nanos_ < kEveryNanos) return;
+  types_asked_nanos_ = now;
+  bool has_changed = false;
+  for (const auto& [name, type] : TypesOfHeardTopics()) {
+    const std::string before = std::exchange(heard_types_[name], type);
+    if (before == type) continue;
+    if (const bool is_static = name == "/tf_static"; is_static || name == "/tf") {
+      if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") continue;
+      Refuse(is_static ? "/tf_static" : "/tf",
+             {"another type", "a node publishes it as " +
+                                  PrintableLine(type.substr(0, kLongestTypeName)) +
+                                  ", not tf2_msgs/TFMessage"});
+      continue;
+    }
+    if (before.empty() || !wiring_.markers) continue;
+    has_changed = true;
+    wiring_.markers->inbox()->Erase(name);
+    spdlog::info("{} has another type now: {}, formerly {}", name,
+                 PrintableLine(type.substr(0, kLongestTypeName)),
+                 PrintableLine(before.substr(0, kLongestTypeName)));
+  }
+  if (!has_changed) return;
+  markers_.clear();
+  markers_ = SubscribeMarkers(*node_, *wiring_.markers);
+}
+
 // A name may be mistyped: the log has that once, the status as long as it is so.
 void MasterRegistration::LookForMissingTopics() {
   constexpr std::int64_t kTopicPatienceNanos = 5'000'000'000;
@@ -456,7 +514,6 @@ ros::Subscriber MasterRegistration::SubscribeMarks() {
 // Of any type: roscpp drops a publisher of another one without a word, and it tries again and
 // again.
 ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool is_static) {
-  constexpr std::size_t kLongestTypeName = 80;  // bytes
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const RawEvent&>(
       topic, kSampleQueue, [this, topic, is_static](const RawEvent& event) {

@@ -121,6 +121,8 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   void ReadRobots();
+  std::map<std::string, std::string> TypesOfHeardTopics();
+  void FollowTypes();
   void LookForMissingTopics();
   void OfferOrders();
   ros::Subscriber SubscribeMarks();
@@ -161,6 +163,8 @@ class MasterRegistration {
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
   std::int64_t markers_since_nanos_ = 0;
+  std::map<std::string, std::string> heard_types_;  // of their topics, by name, as of the master
+  std::int64_t types_asked_nanos_ = 0;              // monotonic clock
   bool has_looked_for_topics_ = false;
   std::vector<ros::Subscriber> joint_states_;  // registered at this master
   std::int64_t robots_due_nanos_ = 0;          // monotonic clock

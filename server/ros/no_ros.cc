@@ -29,6 +29,8 @@ std::vector<RunningNode> FindRunningNodes() {
       "configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
+std::string FullNodeName(const std::string& name) { return name; }
+
 std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& /*config*/, RosMode mode) {
   if (mode == RosMode::kOff) return nullptr;
   throw UsageError(

@@ -1,6 +1,7 @@
 #include "server/ros/running.h"
 
 #include <ros/init.h>
+#include <ros/names.h>
 #include <ros/this_node.h>
 #include <spdlog/spdlog.h>
 
@@ -90,6 +91,15 @@ std::vector<RunningNode> FindRunningNodes() {
     if (!found.people.empty() && DoesNodeAnswer(node, kAnswerPatience)) nodes.push_back(found);
   }
   return nodes;
+}
+
+std::string FullNodeName(const std::string& name) {
+  InitRos();
+  try {
+    return ros::names::resolve(name, /*remap=*/false);
+  } catch (const ros::InvalidNameException& error) {
+    throw UsageError(std::string("--node: ") + error.what());
+  }
 }
 
 void WarnOfNamesake() {

@@ -26,6 +26,10 @@ struct RunningNode {
 /// @throws UsageError without a master, or in a build without ROS.
 std::vector<RunningNode> FindRunningNodes();
 
+/// "/lab/kinescope" for "kinescope" in the namespace "lab" of this program.
+/// @throws UsageError if it is no name
+std::string FullNodeName(const std::string& name);
+
 /// Of a node with the name of this one, which the master ends once this one registers: it may be
 /// the one that was wanted. Asks for half a second at most; call it before that.
 void WarnOfNamesake();

@@ -15,11 +15,10 @@ namespace {
 
 using visualization_msgs::Marker;
 
-// The two triangles of a rectangle in the plane z = kAboveFloor.
+// The two triangles of a rectangle in the plane z = 0.
 void AddRectangle(double x, double y, double width, double height, Marker& triangles) {
-  constexpr double kAboveFloor = 0.001;
   const auto corner = [&](double right, double up) {
-    triangles.points.push_back(PointAt(x + right * width, y + up * height, kAboveFloor));
+    triangles.points.push_back(PointAt(x + right * width, y + up * height, 0));
   };
   for (const double side : {0.0, 1.0}) {
     corner(0, 0);

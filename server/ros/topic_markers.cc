@@ -59,6 +59,20 @@ bool TopicMarkers::IsShown(const std::string& md5sum, const ShownStyle& style) {
          Is<JointState>(md5sum) || FindShownMessage(md5sum) != nullptr;
 }
 
+MarkerLook TopicMarkers::LookOf(const std::string& md5sum, const ShownStyle& style) {
+  MarkerLook look;
+  look.is_converted = !IsInteractive(md5sum);
+  if (Is<OccupancyGrid>(md5sum) || Is<OccupancyGridUpdate>(md5sum)) {
+    look.ground = style.is_behind ? GroundLayer::kFirstMap : GroundLayer::kMap;
+  } else if (Is<nav_msgs::GridCells>(md5sum)) {
+    look.ground = GroundLayer::kCells;
+  }
+  const bool has_lines = Is<nav_msgs::Path>(md5sum) || Is<geometry_msgs::PolygonStamped>(md5sum) ||
+                         (Is<geometry_msgs::PoseArray>(md5sum) && !style.has_axes);
+  look.has_thin_lines = has_lines && style.size_px.has_value();
+  return look;
+}
+
 std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& name,
                                           const ShownStyle& style, const std::string& md5sum,
                                           const std::vector<std::uint8_t>& bytes,

@@ -15,6 +15,7 @@
 #include "server/ros/earlier_messages.h"
 #include "server/ros/effort_rings.h"
 #include "server/ros/interactive_markers.h"
+#include "server/ros/marker_look.h"
 #include "server/ros/shown_messages.h"
 #include "server/ros/updated_maps.h"
 
@@ -28,6 +29,9 @@ class TopicMarkers {
   /// Whether messages of this type are shown as markers, or say how others are: of a cloud of
   /// depths, the calibration; of a map, its updates.
   static bool IsShown(const std::string& md5sum, const ShownStyle& style);
+
+  /// Of the markers of such messages. @pre IsShown(md5sum, style)
+  static MarkerLook LookOf(const std::string& md5sum, const ShownStyle& style);
 
   /// Of a message of topic number `topic`, in a namespace as a legend has it: "plan" for "/plan",
   /// "goals" for "/goals/update" of interactive markers. @pre IsShown(md5sum, style)

@@ -312,9 +312,17 @@ void SceneBuilder::PlaceCamera(SceneState& scene) {
   }
   // Frames of TF may come some time after the first sample.
   constexpr double kPatienceSecs = 5;
-  if (scene.stamp_nanos == 0 || scene.camera_base) return;
+  if (scene.stamp_nanos == 0) return;
+  if (scene.camera_base) {
+    if (!std::exchange(misses_camera_, false)) return;
+    return spdlog::info("the frame '{}' has come: the camera goes with it",
+                        options_.camera_frame.at);
+  }
   if (!camera_since_nanos_) camera_since_nanos_ = scene.stamp_nanos;
-  if (Secs(scene.stamp_nanos - *camera_since_nanos_) > kPatienceSecs) WarnOfCamera();
+  if (Secs(scene.stamp_nanos - *camera_since_nanos_) > kPatienceSecs) {
+    misses_camera_ = true;
+    WarnOfCamera();
+  }
 }
 
 // Once per program, although a clip is read twice.

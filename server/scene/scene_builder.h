@@ -183,6 +183,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   SceneState current_;  // without its people, which Publish adds
   RecordedSurroundings recorded_;
   std::optional<std::int64_t> camera_since_nanos_;  // stamp of the first state without its frame
+  bool misses_camera_ = false;                      // that was told
   MarkerList node_markers_;
   ImageList node_images_;
   RobotList node_robots_;

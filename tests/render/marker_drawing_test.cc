@@ -194,6 +194,44 @@ TEST_F(MarkerDrawing, DrawsLinesOfAPixelAtAnyDistance) {
 }
 
 // The names of frames are white, as in RViz, whose background is dark.
+// A scan that faces the viewer at the height of a map was half under it, and cells on it were in
+// shreds.
+TEST_F(MarkerDrawing, ShowsWhatLiesOnAMapWhole) {
+  const auto square = [](double side, const Eigen::Vector4d& color, GroundLayer layer) {
+    SceneMarker marker;
+    marker.type = MarkerType::kTriangleList;
+    marker.color = color;
+    marker.ground = layer;
+    const double s = side / 2;
+    marker.points = {{-s, -s, 0}, {s, -s, 0}, {s, s, 0}, {-s, -s, 0}, {s, s, 0}, {-s, s, 0}};
+    return marker;
+  };
+  const auto pixels_of = [&](const std::vector<SceneMarker>& markers, int channel) {
+    const Image image = Draw(With(markers));
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      const auto at = [&](int k) { return int{image.rgba[i + static_cast<std::size_t>(k)]}; };
+      const int others = std::max(at((channel + 1) % 3), at((channel + 2) % 3));
+      if (at(channel) > 150 && others < 60) ++count;
+    }
+    return count;
+  };
+  SceneMarker scan;
+  scan.type = MarkerType::kPoints;
+  scan.scale = {0.06, 0.06, 0};
+  scan.color = {1, 0, 0, 1};
+  for (int i = -8; i <= 8; ++i) scan.points.emplace_back(0.1 * i, 0.1 * i, 0);
+  const SceneMarker map = square(3, {0, 0, 1, 1}, GroundLayer::kMap),
+                    cells = square(1, {0, 1, 0, 1}, GroundLayer::kCells),
+                    alone = square(1, {0, 1, 0, 1}, GroundLayer::kNone);
+  const int of_scan = pixels_of({scan}, 0), of_cells = pixels_of({cells}, 1);
+  ASSERT_GT(of_scan, 100);
+  ASSERT_GT(of_cells, 100);
+  EXPECT_NEAR(pixels_of({map, scan}, 0), of_scan, 0.03 * of_scan);
+  EXPECT_EQ(pixels_of({cells, map}, 1), of_cells) << "whatever their order";
+  EXPECT_GT(pixels_of({map, alone}, 1), 0) << "a marker, too";
+}
+
 TEST_F(MarkerDrawing, WritesTextsThatCanBeReadOnAnyBackground) {
   SceneMarker text = Sample(MarkerType::kText);
   const auto darkest_and_brightest = [&](double lightness, Theme theme) {

@@ -38,7 +38,9 @@ struct RvizOptions {
 
   void List(options::OptionList& option) {
     option("out", out, "RViz configuration to write, .rviz; -: standard output");
-    option("node", node, "name of the node, as /kinescope; needed where several run");
+    option("node", node,
+           "name of the node, as /kinescope, or kinescope in the namespace of this program; needed "
+           "where several run");
     option("start", start,
            "start RViz with it, as soon as the node runs; without --out it is kept in "
            "~/.local/state/kinescope");
@@ -158,7 +160,8 @@ Command RvizCommand() {
     }
     if (starts && *values->out == "-") throw UsageError("--out=-: --start needs a file");
     if (starts) CheckDisplay();
-    const auto found = starts ? WaitFor(*values->node) : std::optional(Choose(*values->node));
+    const std::string wanted = values->node->empty() ? "" : ros_bridge::FullNodeName(*values->node);
+    const auto found = starts ? WaitFor(wanted) : std::optional(Choose(wanted));
     if (!found) return 0;
     const ros_bridge::RunningNode& node = *found;
     const std::string file = values->out->empty() ? KeptFile(node) : *values->out;

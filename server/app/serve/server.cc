@@ -154,7 +154,8 @@ Server::~Server() {
 
 void Server::StartRos(const ServeConfig& config) {
   ros_bridge::BridgeConfig bridge = *config.ros;
-  bridge.initial_model = builder_.InitialModel();
+  // A graph may be one of robots alone, whose description RViz looks for under the usual name.
+  if (!ros_bridge::IsGraphUrl(config.source_url)) bridge.initial_model = builder_.InitialModel();
   bridge.serve_meshes = [this](const std::string& set, const auto& files) {
     return ServeMeshes(set, files);
   };

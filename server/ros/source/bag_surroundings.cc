@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/system/starts_with.h"
 #include "core/system/utf8.h"
 #include "server/ros/calibration.h"
 #include "server/ros/image_messages.h"
@@ -61,6 +62,7 @@ Refusal TooLong(const BagMessage& message) {
 BagSurroundings::BagSurroundings(const GraphView& view)
     : shown_topics_(WithSlashes(view.topics)), camera_frame_(view.camera_frame) {
   for (std::size_t i = 0; i < shown_topics_.size(); ++i) {
+    topics_.try_emplace(SenderOf(i), topics_.size());  // drawn in this order, as of a live graph
     for (const HeardTopic& heard : TopicsHeardFor(shown_topics_[i])) {
       heard_.emplace(heard.name, Heard{i, heard.has_colors});
     }
@@ -152,11 +154,15 @@ std::optional<std::size_t> BagSurroundings::NumberOf(const std::string& topic,
 }
 
 std::optional<std::size_t> BagSurroundings::NumberOf(std::size_t shown, SourceCounters& counters) {
+  return NumberOf(SenderOf(shown), counters);
+}
+
+std::string BagSurroundings::SenderOf(std::size_t shown) const {
   const std::string& name = shown_topics_[shown].name;
   const auto first = std::find_if(shown_topics_.begin(), shown_topics_.end(),
                                   [&](const ShownTopic& topic) { return topic.name == name; });
   const auto place = static_cast<std::size_t>(first - shown_topics_.begin());
-  return NumberOf(place == shown ? name : name + " " + std::to_string(shown), counters);
+  return place == shown ? name : name + " " + std::to_string(shown);
 }
 
 void BagSurroundings::TakeMarkers(const BagMessage& message, SourceCounters& counters) {
@@ -188,8 +194,11 @@ void BagSurroundings::Reject(const BagMessage& message, const Refusal& refusal,
   const std::string defect = message.connection->type + ": " + refusal.kind;
   ++counters.rejected[defect];
   named_.insert(defect);
-  const std::string topic = WithSlash(message.connection->topic);
-  Note(refusal.is_partial ? topic : topic + ": not shown", refusal);
+  Note(refusal.is_partial ? WithSlash(message.connection->topic) : LackOf(message), refusal);
+}
+
+std::string BagSurroundings::LackOf(const BagMessage& message) {
+  return WithSlash(message.connection->topic) + ": not shown";
 }
 
 void BagSurroundings::Note(const std::string& what, const Refusal& refusal) {
@@ -204,8 +213,19 @@ void BagSurroundings::TakeShown(const ShownTopic& topic, std::size_t number,
   ShownMarkers markers;
   const auto refused = shown_.Take(number, topic.name, topic.style, message.connection->md5sum,
                                    message.bytes, markers);
-  const auto undrawn = store_.ApplyAll(number, markers, message.recorded_nanos, topic.style);
-  if (refused || undrawn) Reject(message, refused ? *refused : *undrawn, counters);
+  const auto undrawn =
+      store_.ApplyAll(number, markers, message.recorded_nanos, topic.style,
+                      TopicMarkers::LookOf(message.connection->md5sum, topic.style));
+  const std::string key = LackOf(message);
+  if (refused && refused->may_come) lacks_.insert(key);
+  if (refused || undrawn) return Reject(message, refused ? *refused : *undrawn, counters);
+  // What had not come yet at the beginning is no news any more.
+  if (!markers.empty() && lacks_.erase(key) > 0) {
+    const auto begin = rejected_.lower_bound(key);
+    const auto end = std::find_if(begin, rejected_.end(),
+                                  [&](const auto& each) { return !StartsWith(each.first, key); });
+    rejected_.erase(begin, end);
+  }
 }
 
 void BagSurroundings::TakeImage(const ShownTopic& topic, std::size_t number,

@@ -91,6 +91,7 @@ class BagSurroundings {
   };
 
   const char* Decode(const BagMessage& message);
+  static std::string LackOf(const BagMessage& message);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
   void TakeShown(const ShownTopic& topic, std::size_t number, const BagMessage& message,
                  SourceCounters& counters);
@@ -106,6 +107,8 @@ class BagSurroundings {
   void Note(const std::string& what, const Refusal& refusal);
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
+  /// What tells the messages of one shown topic from those of others, also of the same name.
+  std::string SenderOf(std::size_t shown) const;
   std::vector<const RobotFrames*> Frames() const;
   bool PlaceRobots(std::int64_t now_nanos, const std::string& world);
 
@@ -128,6 +131,7 @@ class BagSurroundings {
   std::set<std::string> lost_frames_;            // that were warned of
   std::set<std::string> heard_topics_;           // those that a message came on
   std::map<std::string, std::string> rejected_;  // the first one, by topic and kind
+  std::set<std::string> lacks_;  // beginnings of keys of rejected_: of what may still come
   bool shows_frames_ = false;
   std::set<std::string> named_;  // as they are counted
   visualization_msgs::Marker marker_;

@@ -143,7 +143,10 @@ void TransformPerson::StartOver(std::int64_t header_nanos, std::int64_t record_n
   ++steps_back_;
   headers_are_right_ = true;
   last_header_nanos_ = header_nanos - 1;
-  const std::int64_t before = std::min(header_nanos, record_nanos) - kMinStepNanos;
+  // Headers that are of another time are not taken.
+  const bool is_far = std::abs(header_nanos - record_nanos) >= NodeClock::kFarNanos;
+  const std::int64_t earlier = is_far ? record_nanos : std::min(header_nanos, record_nanos);
+  const std::int64_t before = earlier - kMinStepNanos;
   first_stamp_ += before - sample_.stamp_nanos;
   sample_.stamp_nanos = before;
 }

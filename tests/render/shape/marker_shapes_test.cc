@@ -30,7 +30,7 @@ TEST(MarkerShapes, HaveArrowsOfAPoseAsRvizDoes) {
   EXPECT_NEAR(size.y(), 0.6, 0.01);
   EXPECT_NEAR(size.z(), 0.2, 0.01);
   float shaft = 0;
-  for (const Eigen::Vector3f& position : shapes.solid.positions) {
+  for (const Eigen::Vector3f& position : shapes.solid.mesh.positions) {
     if (position.x() < 0.1f) shaft = std::max(shaft, position.y());
   }
   EXPECT_NEAR(shaft, 0.15, 0.005);
@@ -57,8 +57,8 @@ TEST(MarkerShapes, TintTheColoursOfAFile) {
     marker.color = color;
     const MarkerShapes shapes = ShapesOf(marker);
     EXPECT_THAT(shapes.problems, IsEmpty());
-    const urdf::Mesh& mesh = shapes.solid.colors.empty() ? shapes.blended : shapes.solid;
-    return mesh.colors.at(0);
+    const bool is_solid = !shapes.solid.mesh.colors.empty();
+    return (is_solid ? shapes.solid : shapes.blended).mesh.colors.at(0);
   };
   EXPECT_TRUE(color_with({0, 0, 0, 0}).isApprox(Eigen::Vector4f(1, 0, 0, 1), 0.01f));
   EXPECT_TRUE(color_with({0, 0, 1, 1}).isApprox(Eigen::Vector4f(0.5f, 0, 0.5f, 1), 0.01f));
@@ -76,7 +76,7 @@ TEST(MarkerShapes, AreSeenWhereTheFileThatIsToHaveColoursHasNone) {
   marker.mesh_uri = "file://" + (folder / "plain.obj").string();
   marker.mesh_has_own_colors = true;
   marker.color.setZero();
-  const urdf::Mesh mesh = ShapesOf(marker).blended;
+  const urdf::Mesh mesh = ShapesOf(marker).blended.mesh;
   ASSERT_FALSE(mesh.colors.empty());
   EXPECT_EQ(mesh.colors[0].w(), 1);
 }
@@ -89,12 +89,54 @@ TEST(MarkerShapes, HaveLinesOfAPixelWithoutTriangles) {
   lines.pose.position = {0, 0, 2};
   lines.points = {{0, 0, 0}, {1, 0, 0}};
   const MarkerShapes shapes = ShapesOf(lines);
-  EXPECT_THAT(shapes.solid.triangles, IsEmpty());
+  EXPECT_THAT(shapes.solid.mesh.triangles, IsEmpty());
   ASSERT_EQ(shapes.lines.size(), 1u);
   EXPECT_EQ(shapes.lines[0].name, "rviz/Grid/0");
   EXPECT_FALSE(shapes.lines[0].is_blended);
   EXPECT_THAT(shapes.lines[0].positions,
               ElementsAre(Eigen::Vector3f(0, 0, 2), Eigen::Vector3f(1, 0, 2)));
+}
+
+TEST(MarkerShapes, JoinThePointsOfAStripWithLinesOfAPixel) {
+  SceneMarker strip;
+  strip.type = MarkerType::kLineStrip;
+  strip.is_in_pixels = true;
+  strip.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  strip.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+  const MarkerShapes shapes = ShapesOf(strip);
+  ASSERT_EQ(shapes.lines.size(), 1u);
+  EXPECT_THAT(shapes.lines[0].positions,
+              ElementsAre(Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1, 0, 0),
+                          Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(1, 1, 0)));
+  ASSERT_EQ(shapes.lines[0].colors.size(), 4u);
+  EXPECT_EQ(shapes.lines[0].colors[2], Eigen::Vector4f(0, 1, 0, 1));
+}
+
+// Whatever the order of their topics.
+TEST(MarkerShapes, HaveTheGroundFromBelowThenTheLargerFirst) {
+  const auto square = [](const char* name, GroundLayer layer, double side, double height = 0) {
+    auto marker = std::make_shared<SceneMarker>();
+    marker->ns = name;
+    marker->type = MarkerType::kTriangleList;
+    marker->ground = layer;
+    marker->points = {{0, 0, 0}, {side, 0, 0}, {side, side, 0}};
+    marker->pose.position.z() = height;
+    return marker;
+  };
+  auto wall = square("wall", GroundLayer::kNone, 9);
+  auto broken = square("broken", GroundLayer::kMap, 9);
+  broken->points.pop_back();
+  const MarkerShapes shapes = MarkerReader(100'000).Read(
+      {square("obstacles", GroundLayer::kCells, 50), square("upstairs", GroundLayer::kMap, 9, 3),
+       square("local", GroundLayer::kMap, 1), wall, square("building", GroundLayer::kMap, 9, 0.001),
+       broken, square("behind", GroundLayer::kFirstMap, 2)});
+  EXPECT_THAT(shapes.ground.names,
+              ElementsAre("behind/0", "building/0", "local/0", "obstacles/0", "upstairs/0"));
+  EXPECT_THAT(shapes.solid.names, ElementsAre("wall/0"));
+  EXPECT_EQ(shapes.boxes.size(), 6u);
+  EXPECT_EQ(shapes.ground.mesh.parts.front(), 0);
+  EXPECT_EQ(shapes.ground.mesh.parts.back(), 4);
+  EXPECT_EQ(shapes.problems.size(), 1u);
 }
 
 }  // namespace

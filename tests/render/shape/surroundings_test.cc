@@ -106,6 +106,21 @@ TEST(Surroundings, HaveMarkersWithTheirPlacesAndColors) {
   EXPECT_TRUE(glb.problems().empty());
 }
 
+TEST(Surroundings, HaveMapsUnlitAndByTheirNameBeforeAllElse) {
+  SceneMarker map;
+  map.type = MarkerType::kTriangleList;
+  map.ground = GroundLayer::kMap;
+  map.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  const Glb glb(MakeSurroundingsWriter()->Write(Shared({Cube(), map}), {}));
+  const json parts = glb.Primitives("markers");
+  ASSERT_EQ(parts.size(), 2u);
+  ExpectBox(glb.BoxOf(parts[0]), {0, 0, 0}, {1, 1, 0});
+  const json& material = glb.document()["materials"][parts[0]["material"].get<std::size_t>()];
+  EXPECT_EQ(material["name"], "ground");
+  EXPECT_TRUE(material["extensions"].contains("KHR_materials_unlit"));
+  EXPECT_EQ(glb.document()["extensionsUsed"], json{"KHR_materials_unlit"});
+}
+
 // x left, y up, z forward: what viewers of such files expect.
 TEST(Surroundings, StandUprightInOtherViewers) {
   const Glb glb(MakeSurroundingsWriter()->Write(Shared({Cube()}), {}));

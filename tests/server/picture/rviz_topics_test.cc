@@ -45,7 +45,7 @@ Visualization Manager:
   EXPECT_EQ(picture.topics[0].line, 4);
   EXPECT_FALSE(picture.topics[1].is_of_people);
   EXPECT_EQ(picture.topics[2].name, "/plan");
-  EXPECT_EQ(picture.topics[2].style, "");
+  EXPECT_EQ(picture.topics[2].style, "(pixels=1)");
   EXPECT_THAT(picture.remarks, Contains(HasSubstr("'/scan;rm' is no name of a topic")));
   EXPECT_EQ(picture.topics[3].name, "/odom");
   EXPECT_THAT(picture.topics[3].style, HasSubstr(",keep=100,step=0.1,turn=0.1)"));
@@ -90,23 +90,25 @@ Visualization Manager:
   EXPECT_THAT(
       styles,
       ElementsAre("(color=#ff0010,alpha=0.5,size=0.1)", "(shape=axes,width=0.1,size=0.4)",
-                  "(color=#19ff00)", "(shape=axes,pose_width=0.03,pose_size=0.3,size=0.2)",
+                  "(color=#19ff00,pixels=1)", "(shape=axes,pose_width=0.03,pose_size=0.3,size=0.2)",
                   "(color=#00ff80,shape=cubes,size=0.03)", "(pixels=5)", "(by=z)",
                   "(color=#010203,force=2.6,torque=2.6,width=0.5,torque_color=#cccc33)",
-                  "(size=0.5)", "(shaft_width=0.05,head_width=0.1,head=8,size=10)",
+                  "(pixels=1,size=0.5)", "(shaft_width=0.05,head_width=0.1,head=8,size=10)",
                   "(color=#0000ff,alpha=0.5,shaft_width=0.05,head_width=0.1,head=0.25,size=0.75,"
                   "covariance=1,covariance_alpha=0.3,"
                   "covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
-                  "(alpha=0.25,scheme=costmap,updates=on)", "(updates=on)", "(color=#19ff00)",
-                  "(by=x,from=-1,to=2.5)", "(by=intensity,rainbow=inverted)",
+                  "(alpha=0.25,scheme=costmap,updates=on,behind=on)", "(updates=on)",
+                  "(color=#19ff00,pixels=1)", "(by=x,from=-1,to=2.5)",
+                  "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
-  for (const char* remark : {"Draw Behind: it is drawn in", "an arrow of 17 m is drawn with 10 m",
-                             "Color Scheme 'raw' is drawn as 'map'",
-                             "Use Fixed Frame 'false': the axis is that of the scene",
-                             "Channel Name 'my,ring' cannot be taken; its points are white",
-                             "Color Transformer 'MONO8' is not taken"}) {
+  for (const char* remark :
+       {"Draw Behind: it is drawn behind other maps", "an arrow of 17 m is drawn with 10 m",
+        "Color Scheme 'raw' is drawn as 'map'",
+        "Use Fixed Frame 'false': the axis is that of the scene",
+        "Channel Name 'my,ring' cannot be taken; its points are white",
+        "Color Transformer 'MONO8' is not taken"}) {
     EXPECT_THAT(picture.remarks, Contains(HasSubstr(remark)));
   }
   ShownTopicsValue value;
@@ -315,9 +317,9 @@ Visualization Manager:
   EXPECT_EQ(topics[0].name + topics[0].style, "/goals/update(names=off,shape=axes,alpha=1)");
   EXPECT_EQ(topics[1].name + topics[1].style, "/plain/update");
   EXPECT_EQ(topics[2].style, "(shape=arrows,shaft_width=0.01,head_width=0.03,head=0.25,size=0.75)");
-  EXPECT_EQ(
-      topics[3].style,
-      "(shape=arrows,shaft_width=0.1,head_width=0.3,head=0.3,pose_color=#ff0000,pose_size=0.4)");
+  EXPECT_EQ(topics[3].style,
+            "(pixels=1,shape=arrows,shaft_width=0.1,head_width=0.3,head=0.3,pose_color=#ff0000,"
+            "pose_size=0.4)");
   const auto without = topics_of("{Class: rviz/MoveCamera}, {Class: rviz/Interact}");
   EXPECT_EQ(without.at(1).style, "(handles=off)") << "Interact is not the active tool";
   ShownTopicsValue value;
@@ -366,11 +368,11 @@ TEST(RvizTopics, TakesNamesOfColours) {
         .topics.at(0)
         .style;
   };
-  EXPECT_EQ(style_of("red"), "(color=#ff0000)");
-  EXPECT_EQ(style_of("Light Blue"), "(color=#add8e6)");
-  EXPECT_EQ(style_of("yellowgreen"), "(color=#9acd32)") << "the last of all";
-  EXPECT_EQ(style_of("aliceblue"), "(color=#f0f8ff)");
-  EXPECT_EQ(style_of("reddish"), "") << "RViz's own is ours";
+  EXPECT_EQ(style_of("red"), "(color=#ff0000,pixels=1)");
+  EXPECT_EQ(style_of("Light Blue"), "(color=#add8e6,pixels=1)");
+  EXPECT_EQ(style_of("yellowgreen"), "(color=#9acd32,pixels=1)") << "the last of all";
+  EXPECT_EQ(style_of("aliceblue"), "(color=#f0f8ff,pixels=1)");
+  EXPECT_EQ(style_of("reddish"), "(pixels=1)") << "RViz's own is ours";
 }
 
 TEST(RvizTopics, NamesWhatIsDrawnOtherwise) {
@@ -395,7 +397,7 @@ TEST(RvizTopics, NamesWhatIsDrawnOtherwise) {
        "Plane Cell Count 500 is taken as 100"},
       {"Class: rviz/TF, Filter (whitelist): arm", "Filter (whitelist) is not taken"},
       {"Class: rviz/Axes, Show Trail: true", "it has no trail"},
-      {"Class: rviz/Map, Topic: /a, Draw Behind: 1", "Draw Behind: it is drawn in front"},
+      {"Class: rviz/Map, Topic: /a, Draw Behind: 1", "Draw Behind: it is drawn behind other maps"},
       {"Class: rviz/Effort, Topic: /a", "rings are drawn about joints of robots that are shown"},
       {"Class: rviz/Axes, Length: 50", "Length 50 is taken as 10"},
       {"Class: rviz/Image, Image Topic: /a, Normalize Range: false", "Normalize Range is off"}};
@@ -431,7 +433,8 @@ TEST(RvizTopics, HasMarkersOfTheArrayBesideATopicOfSingleOnes) {
 
 TEST(RvizTopics, DoesNotUseTheAlphaOfLines) {
   for (const char* const kind : {"Path", "Polygon", "PoseArray"}) {
-    EXPECT_EQ(StyleOf("Class: rviz/" + std::string(kind) + ", Topic: /a, Alpha: 0"), "") << kind;
+    EXPECT_EQ(StyleOf("Class: rviz/" + std::string(kind) + ", Topic: /a, Alpha: 0"), "(pixels=1)")
+        << kind;
   }
   EXPECT_EQ(StyleOf("Class: rviz/PoseArray, Topic: /a, Alpha: 0.5, Shape: Axes"),
             "(alpha=0.5,shape=axes,width=0.01)");

@@ -22,6 +22,13 @@ def load(name, **arguments):
     return config
 
 
+def load_within(namespace, name):
+    config = roslaunch.config.ROSLaunchConfig()
+    text = f'<launch><group ns="{namespace}"><include file="{FOLDER / name}" /></group></launch>'
+    roslaunch.xmlloader.XmlLoader().load_string(text, config, verbose=False)
+    return config
+
+
 class LaunchFiles(unittest.TestCase):
     def test_explain_every_argument(self):
         files = sorted(FOLDER.glob("*.launch"))
@@ -52,16 +59,23 @@ class LaunchFiles(unittest.TestCase):
             self.assertEqual(shlex.split(named[0].args)[:2], ["-d", "/of me/a.rviz"])
 
     def test_names_of_nodes_may_begin_with_a_slash(self):
-        for node in ("lab", "/lab", "ns/lab"):
-            wanted = "/" + node.strip("/")
+        for node, pattern in (("lab", "/(.*/)?lab"), ("/lab/", "/lab"), ("ns/lab", "/(.*/)?ns/lab")):
             record = load("record.launch", bag="/data/trial", node=node).nodes[0]
-            self.assertIn(f'-e "{wanted}/(.*/)?(', record.args)
+            self.assertIn(f'-e "{pattern}/(.*/)?(', record.args)
             rviz = load("rviz.launch", node=node).nodes[0]
-            self.assertEqual(rviz.args.split()[-2:], ["--node", wanted])
+            self.assertEqual(rviz.args.split()[-2:], ["--node", node.rstrip("/")])
 
         for given, wanted in (("/lab", "/lab"), ("ns/lab", "/ns/lab"), ("", "/kinescope")):
             bridge = load("bridge.launch", node=given).nodes[0]
             self.assertEqual((bridge.namespace + "/" + bridge.name).replace("//", "/"), wanted)
+
+    def test_stay_in_the_namespace_that_includes_them(self):
+        for name, node in (("xsens_client.launch", "xsens"), ("kinescope.launch", "kinescope"), ("bridge.launch", "kinescope")):
+            launch = load_within("lab", name)
+            self.assertIn("/lab/", [node.namespace for node in launch.nodes], name)
+            self.assertIn(f"/lab/{node}/reference_frame", launch.params, name)
+            for started in launch.nodes:
+                self.assertNotIn("/" + node, started.args.split(), name)
 
     def test_paths_are_those_of_the_shell(self):
         with unittest.mock.patch.dict(os.environ, PWD="/here", HOME="/me"):

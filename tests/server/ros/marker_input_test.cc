@@ -1,12 +1,16 @@
 #include "server/ros/marker_input.h"
 
 #include <gtest/gtest.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Path.h>
+#include <ros/message_traits.h>
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/system/clocks.h"
+#include "server/ros/topic_markers.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -406,6 +410,48 @@ TEST(MarkerStore, SizesSquaresOfATopicInPixels) {
     EXPECT_FALSE(in_metres->is_in_pixels);
     EXPECT_EQ(in_metres->scale.x(), 0.1);
   }
+}
+
+TEST(MarkerStore, DrawsLinesOfMarkersAsOpaqueAsTheirColourIs) {
+  MarkerStore store;
+  const Cart cart;
+  Marker lines = Of(Marker::LINE_LIST);
+  lines.colors[0].a = 0.3f;
+  EXPECT_FALSE(store.Apply(0, lines, 0));
+  lines.color.a = 0;
+  EXPECT_FALSE(store.Apply(1, lines, 0));
+  MarkerLook converted;
+  converted.is_converted = true;
+  lines.color.a = 1;
+  EXPECT_FALSE(store.Apply(2, lines, 0, {}, converted));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_EQ(store.markers().at(0)->colors[0].w(), 1) << "as RViz, which blends none of them";
+  EXPECT_NEAR(store.markers().at(1)->colors[0].w(), 0.3, 1e-6);
+  EXPECT_NEAR(store.markers().at(2)->colors[0].w(), 0.3, 1e-6) << "ours are as they say";
+}
+
+TEST(MarkerStore, LaysMapsOnTheGroundAndDrawsPathsWithLinesOfAPixel) {
+  MarkerStore store;
+  const Cart cart;
+  const auto look_of = [](const std::string& type, bool is_behind = false, bool is_thin = false) {
+    ShownStyle style;
+    style.is_behind = is_behind;
+    if (is_thin) style.size_px = 1;
+    return TopicMarkers::LookOf(type, style);
+  };
+  const std::string map = ros::message_traits::md5sum<nav_msgs::OccupancyGrid>(),
+                    path = ros::message_traits::md5sum<nav_msgs::Path>();
+  EXPECT_FALSE(store.Apply(0, Of(Marker::TRIANGLE_LIST), 0, {}, look_of(map)));
+  EXPECT_FALSE(store.Apply(1, Of(Marker::TRIANGLE_LIST), 0, {}, look_of(map, true)));
+  EXPECT_FALSE(store.Apply(2, Of(Marker::LINE_STRIP), 0, {}, look_of(path, false, true)));
+  EXPECT_FALSE(store.Apply(3, Of(Marker::LINE_STRIP), 0, {}, look_of(path)));
+  EXPECT_FALSE(store.Apply(4, Of(Marker::TRIANGLE_LIST), 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_EQ(store.markers().at(0)->ground, GroundLayer::kMap);
+  EXPECT_EQ(store.markers().at(1)->ground, GroundLayer::kFirstMap);
+  EXPECT_TRUE(store.markers().at(2)->is_in_pixels);
+  EXPECT_FALSE(store.markers().at(3)->is_in_pixels);
+  EXPECT_EQ(store.markers().at(4)->ground, GroundLayer::kNone) << "a marker of another node";
 }
 
 TEST(MarkerStore, TellsThreePixelsFromThreeMetres) {

@@ -617,7 +617,7 @@ TEST(ShownMessages, CellsAreSquaresAroundTheirPlaces) {
   ASSERT_THAT(markers.at(0).points, SizeIs(12));
   EXPECT_DOUBLE_EQ(markers[0].points[6].x, 2.75);
   EXPECT_DOUBLE_EQ(markers[0].points[6].y, -0.125);
-  EXPECT_DOUBLE_EQ(markers[0].points[6].z, 1.001);
+  EXPECT_DOUBLE_EQ(markers[0].points[6].z, 1);
 }
 
 nav_msgs::OccupancyGrid MapOf(std::uint32_t width, std::uint32_t height) {

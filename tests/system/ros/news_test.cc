@@ -1,6 +1,7 @@
 // Diagnostics, alarms and marks over ROS, with everything real: a master, `kinescope serve`, and
 // this test as the one who listens and marks.
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PointStamped.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <kinescope/Mark.h>
@@ -215,6 +216,34 @@ TEST_F(NewsOverRos, SaysWhatIsNotShownOfTheGraph) {
   const ros::Publisher places = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   places.publish(place);
   EXPECT_TRUE(Spin([&] { return not_shown() == nlohmann::json{wolls}; })) << not_shown();
+}
+
+// roscpp turns a publisher of another type than the first away.
+TEST_F(NewsOverRos, ShowsATopicThatHasAnotherTypeNow) {
+  ros::Publisher thing = node_->advertise<visualization_msgs::Marker>("/thing", 1, true);
+  visualization_msgs::Marker wall;
+  wall.ns = "walls";
+  wall.pose.orientation.w = 1;
+  wall.type = visualization_msgs::Marker::CUBE;
+  wall.scale.x = wall.scale.y = wall.scale.z = wall.color.a = 1;
+  thing.publish(wall);
+  const auto server =
+      Start("serve demo:n_pose --ros required --http_port 0 --pictures off --marker_topics /thing");
+  const std::string page = WaitForLine(*server, "page at ");
+  const auto status = [&] {
+    return testing::RunProgram({"/usr/bin/curl", "-s", "-o", "/dev/null", "-w", "%{http_code}",
+                                page + "api/v1/surroundings.glb"})
+        .out;
+  };
+  ASSERT_TRUE(Spin([&] { return status() == "200"; })) << status();
+  thing.shutdown();
+  thing = node_->advertise<geometry_msgs::PointStamped>("/thing", 1, true);
+  WaitForLine(*server,
+              "/thing has another type now: geometry_msgs/PointStamped, formerly "
+              "visualization_msgs/Marker");
+  EXPECT_TRUE(Spin([&] { return status() == "404"; })) << "what was there is still shown";
+  thing.publish(geometry_msgs::PointStamped());
+  EXPECT_TRUE(Spin([&] { return status() == "200"; })) << status();
 }
 
 TEST_F(NewsOverRos, SaysWhetherTheStreamIsLiveAlsoToThoseWhoComeLater) {

@@ -100,7 +100,6 @@ TEST_F(TransformPeopleTest, ReturnsThePublishedPosesWhenAllNamesAreKnown) {
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
 
-// Names come one by one; a robot's "head" must not stand in for one that is still under way.
 // As when a bag is played in a loop with its clock.
 TEST_F(TransformPeopleTest, BeginsAnewWhenTheClockOfTheGraphWasSetBack) {
   Settle();
@@ -118,6 +117,29 @@ TEST_F(TransformPeopleTest, BeginsAnewWhenTheClockOfTheGraphWasSetBack) {
   }
 }
 
+// Such as those of a suit that counts the seconds of the day: they are not taken then either.
+TEST_F(TransformPeopleTest, BeginsAnewAlsoWithHeadersOfAnotherTime) {
+  const auto take = [&](int n) {
+    tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
+    for (auto& transform : message.transforms) {
+      transform.header.stamp -= ros::Duration(1'500'000'000);
+    }
+    Take(n, message);
+  };
+  for (int n = -30; n < 20; ++n) take(n);
+  const std::size_t before = sink_.samples.size();
+  ASSERT_GT(before, 20U);
+  for (int n = 2; n < 10; ++n) take(n);
+  ASSERT_EQ(sink_.samples.size(), before + 8);
+  EXPECT_EQ(counters_.restarts, 1U);
+  for (std::size_t i = 1; i < sink_.samples.size(); ++i) {
+    const auto step = sink_.samples[i].time_code_millis - sink_.samples[i - 1].time_code_millis;
+    EXPECT_GE(step, 0) << i;
+    EXPECT_LE(step, 100) << i;
+  }
+}
+
+// Names come one by one; a robot's "head" must not stand in for one that is still under way.
 TEST_F(TransformPeopleTest, DoesNotUseTheHeadOfARobotForAPerson) {
   for (const char* frame : {"head", "pelvis", "left_hand", "right_hand"}) {
     Take(0, FrameAtOrigin("base", frame));
