@@ -5,7 +5,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # What has been compiled once on a machine is not compiled again there: neither after a change of branch nor in another clone,
-# since what is compiled does not depend on the folder.
+# since what is compiled does not depend on the folder. Tests are, since their precompiled header does: clang keeps its path.
 find_program(KINESCOPE_CCACHE ccache)
 if(KINESCOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER

@@ -188,7 +188,7 @@ function prepare(part, lightness) {
 /** What others lie on: as in pictures, it hides nothing that is a few pixels behind it, and its triangles are in their order.
  *  @param {THREE.Mesh<THREE.BufferGeometry, THREE.Material>} part */
 function layOnGround(part) {
-  Object.assign(part.material, { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 16, depthWrite: false });
+  Object.assign(part.material, { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 80, depthWrite: false });
   part.renderOrder = GROUND_ORDER;
 }
 

@@ -33,7 +33,8 @@ vtkStandardNewMacro(PassActor)
     mapper->Render(renderer, this);
     return;
   }
-  constexpr float kPixels = 4, kUnits = 16;  // the latter RViz's
+  // The latter as far as RViz's 16, whose near plane is at 0.01 m: 1 cm at 10 m, 5 cm at 23 m.
+  constexpr float kPixels = 4, kUnits = 80;
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kPixels, kUnits);
   mapper->Render(renderer, this);
