@@ -11,8 +11,12 @@ const CAPITAL_SHARE = 0.73; // of a font's size
 const LINE = 1.2;           // from line to line, of a font's size
 const TEXT_PIXELS = 64;     // size of the font of a label's texture
 const PANEL_OPACITY = 0.78; // behind a text, as in pictures
-const GROUND = 'ground';    // the material of what others lie on
-const GROUND_ORDER = -1;    // before all else that shines through
+// The materials of what others lie on: what of it is opaque, to hide what is behind it, and all of it. Both come before all else that
+// shines through, and are farther than they are, by pixels along their slope and units of depth.
+const GROUND = new Map([
+  ['ground depth', { order: -2, pixels: 5, units: 160, hides: true }],
+  ['ground', { order: -1, pixels: 4, units: 80, hides: false }],
+]);
 const LEAST_CONTRAST = 0.3; // of a text without a panel, in lightness
 // From the axes of GLB to the world's: x forward, y left, z up.
 const WORLD_FROM_FILE = new THREE.Quaternion(0.5, 0.5, 0.5, 0.5);
@@ -175,7 +179,7 @@ function prepare(part, lightness) {
   if (isMesh(part)) {
     part.material.fog = false;  // only the floor ends in the distance
     part.castShadow = !part.material.transparent;
-    if (part.material.name === GROUND) layOnGround(part);
+    layOnGround(part);
   } else if (isPoints(part)) {
     part.material = squares(part);
   } else if (isLines(part)) {
@@ -185,11 +189,17 @@ function prepare(part, lightness) {
   }
 }
 
-/** What others lie on: as in pictures, it hides nothing that is a few pixels behind it, and its triangles are in their order.
+/** As in pictures, what others lie on hides nothing that is a few pixels behind it, and its triangles are in their order.
  *  @param {THREE.Mesh<THREE.BufferGeometry, THREE.Material>} part */
 function layOnGround(part) {
-  Object.assign(part.material, { polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 80, depthWrite: false });
-  part.renderOrder = GROUND_ORDER;
+  const place = GROUND.get(part.material.name);
+  if (!place) return;
+  const { order, pixels, units, hides } = place;
+  Object.assign(part.material, {
+    polygonOffset: true, polygonOffsetFactor: pixels, polygonOffsetUnits: units, transparent: true, depthWrite: hides, colorWrite: !hides,
+  });
+  part.castShadow = false;
+  part.renderOrder = order;
 }
 
 /** Squares that face the camera, with the width of the file's: in the world, or in CSS pixels at any distance.

@@ -120,7 +120,12 @@ MarkerShapes MarkerReader::Read(const std::vector<std::shared_ptr<const SceneMar
   }
   std::stable_sort(ground.begin(), ground.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [order, marker] : ground) AddTo(shapes.ground, *marker, shapes);
+  for (const auto& [order, marker] : ground) {
+    const std::size_t before = shapes.ground.names.size();
+    AddTo(shapes.ground, *marker, shapes);
+    const bool is_drawn = shapes.ground.names.size() > before;
+    if (is_drawn && !IsTranslucent(*marker)) AppendMarker(*marker, shapes.ground_depth.mesh);
+  }
   if (markers.size() > kMaxMarkers) {
     shapes.problems.push_back(
         NotDrawn(*markers[kMaxMarkers], "there are " + std::to_string(markers.size()) +

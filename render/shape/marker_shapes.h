@@ -45,7 +45,8 @@ struct MarkerSurface {
 };
 
 struct MarkerShapes {
-  MarkerSurface ground;  // what others lie on, in the order in which it is drawn
+  MarkerSurface ground;        // what others lie on, in the order in which it is drawn
+  MarkerSurface ground_depth;  // those of it that are opaque, which hide what is behind them
   MarkerSurface solid;
   MarkerSurface blended;  // lets others shine through
   std::vector<MarkerPoints> points;

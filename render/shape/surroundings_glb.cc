@@ -37,11 +37,12 @@ class Document {
         {{"pbrMetallicRoughness", surface}},
         {{"pbrMetallicRoughness", surface}, {"doubleSided", true}},
         {{"pbrMetallicRoughness", surface}, {"doubleSided", true}, {"alphaMode", "BLEND"}},
-        {{"name", "ground"}, {"alphaMode", "BLEND"}, {"extensions", {{kUnlit, json::object()}}}}};
+        {{"name", "ground"}, {"alphaMode", "BLEND"}, {"extensions", {{kUnlit, json::object()}}}},
+        {{"name", "ground depth"}, {"extensions", {{kUnlit, json::object()}}}}};
     document["extensionsUsed"] = {kUnlit};
   }
 
-  enum Material { kClosed, kOpen, kBlended, kGround };
+  enum Material { kClosed, kOpen, kBlended, kGround, kGroundDepth };
 
   struct Part {
     const urdf::Mesh& mesh;
@@ -224,7 +225,8 @@ std::string SurroundingsGlb::Write(const std::vector<std::shared_ptr<const Scene
   Document document;
   MarkerShapes shapes = markers_.Read(markers);
   document.AddMeshes("markers",
-                     {{shapes.ground.mesh, Document::kGround},
+                     {{shapes.ground_depth.mesh, Document::kGroundDepth},
+                      {shapes.ground.mesh, Document::kGround},
                       {shapes.solid.mesh, shapes.is_closed ? Document::kClosed : Document::kOpen},
                       {shapes.blended.mesh, Document::kBlended}});
   for (const MarkerPoints& points : shapes.points) document.AddPoints(points);

@@ -27,6 +27,7 @@ void MarkerActors::Show(MarkerSurface& shape, Surface& surface) {
 
 void MarkerActors::Build() {
   MarkerShapes shapes = reader_.Read(markers_);
+  Show(shapes.ground_depth, ground_depth_);
   Show(shapes.ground, ground_);
   Show(shapes.solid, solid_);
   Show(shapes.blended, blended_);

@@ -1,4 +1,4 @@
-/// Renders the external markers in seven draw calls: what others lie on, then triangles, points and
+/// Renders the external markers in eight draw calls: what others lie on, then triangles, points and
 /// lines, the opaque ones and the others. They are rebuilt when one of them has changed since the
 /// picture before.
 #pragma once
@@ -36,9 +36,9 @@ class MarkerActors {
   std::array<vtkActor*, 3> solid() {
     return {solid_.actor.actor(), solid_points_.actor(), solid_lines_.actor()};
   }
-  std::array<vtkActor*, 4> blended() {
-    return {ground_.actor.actor(), blended_.actor.actor(), blended_points_.actor(),
-            blended_lines_.actor()};
+  std::array<vtkActor*, 5> blended() {
+    return {ground_depth_.actor.actor(), ground_.actor.actor(), blended_.actor.actor(),
+            blended_points_.actor(), blended_lines_.actor()};
   }
   /// By part of one of these actors: "marker walls/3".
   std::vector<std::string> NamesOf(const vtkActor* actor);
@@ -54,10 +54,11 @@ class MarkerActors {
     PartActor actor;
     std::vector<std::string> names;
   };
-  std::array<Surface*, 3> Surfaces() { return {&ground_, &solid_, &blended_}; }
+  std::array<Surface*, 4> Surfaces() { return {&ground_depth_, &ground_, &solid_, &blended_}; }
   static void Show(MarkerSurface& shape, Surface& surface);
 
-  Surface ground_{PartActor(Pass::kGround, PartActor::Light::kFlat, 1), {}},
+  Surface ground_depth_{PartActor(Pass::kGroundDepth, PartActor::Light::kBelowThat, 1), {}},
+      ground_{PartActor(Pass::kGround, PartActor::Light::kFlatBelow, 1), {}},
       solid_{PartActor(Pass::kSolid, PartActor::Light::kLit, 1), {}},
       blended_{PartActor(Pass::kBlended, PartActor::Light::kLit, 1), {}};
   PointActor solid_points_{false}, blended_points_{true};

@@ -17,7 +17,9 @@ class PartActor {
     kLit,
     kLitAtVertices,  // as kLit where triangles are a few pixels wide, for a fraction of the time
     kFlat,
-    kSoft,  // unlit, fades out from the part's origin to radius 1 around its z axis
+    kFlatBelow,  // as kFlat, but farther than it is: 2 cm at 10 m, 10 cm at 22 m, as RViz's maps
+    kBelowThat,  // twice as much
+    kSoft,       // unlit, fades out from the part's origin to radius 1 around its z axis
   };
 
   static constexpr std::size_t kMaxParts = 32;  // length of the array in the shader

@@ -27,16 +27,18 @@ vtkStandardNewMacro(PassActor)
   }
   state->SetEnumState(GL_BLEND, has_opacity);
   state->SetEnumState(GL_DEPTH_TEST, pass_ != Pass::kBackdrop);  // it is drawn first
-  state->vtkglDepthMask(pass_ == Pass::kSolid ? GL_TRUE : GL_FALSE);
+  const bool hides = pass_ == Pass::kSolid || pass_ == Pass::kGroundDepth;
+  state->vtkglDepthMask(hides ? GL_TRUE : GL_FALSE);
   state->vtkglDepthFunc(pass_ == Pass::kGhost ? GL_GREATER : GL_LEQUAL);
-  if (pass_ != Pass::kGround) {
+  if (pass_ != Pass::kGround && pass_ != Pass::kGroundDepth) {
     mapper->Render(renderer, this);
     return;
   }
-  // The latter as far as RViz's 16, whose near plane is at 0.01 m: 1 cm at 10 m, 5 cm at 23 m.
-  constexpr float kPixels = 4, kUnits = 80;
+  const vtkOpenGLState::ScopedglColorMask colors(state);
+  const bool is_depth = pass_ == Pass::kGroundDepth;
+  if (is_depth) state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(kPixels, kUnits);
+  glPolygonOffset(is_depth ? 5 : 4, 0);  // pixels along the slope
   mapper->Render(renderer, this);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

@@ -8,13 +8,14 @@
 namespace kinescope::render {
 
 enum class Pass {
-  kBackdrop,  // covers what is behind it, and is covered by all later actors
-  kSolid,     // hides and is hidden by depth
-  kGround,    // is hidden, hides nothing that is in front of it or a few pixels behind it: what
-              // lies on it, or turns to the viewer there, is seen whole
-  kBlended,   // is hidden, hides nothing: soft shadows
-  kGhost,     // visible only where something solid is in front of it; hides nothing
-  kVeil,      // a translucent body of which only the front is visible; rendered last
+  kBackdrop,     // covers what is behind it, and is covered by all later actors
+  kSolid,        // hides and is hidden by depth
+  kGround,       // is hidden, hides nothing that is in front of it or a few pixels behind it: what
+                 // lies on it, or turns to the viewer there, is seen whole
+  kGroundDepth,  // before kGround: its depth alone, so that it hides what is behind it
+  kBlended,      // is hidden, hides nothing: soft shadows
+  kGhost,        // visible only where something solid is in front of it; hides nothing
+  kVeil,         // a translucent body of which only the front is visible; rendered last
 };
 
 class PassActor : public vtkOpenGLActor {

@@ -206,8 +206,19 @@ TEST_F(MarkerDrawing, ShowsWhatLiesOnAMapWhole) {
     marker.points = {{-s, -s, 0}, {s, -s, 0}, {s, s, 0}, {-s, -s, 0}, {s, s, 0}, {-s, s, 0}};
     return marker;
   };
+  Camera from_above, plan, from_below;
+  from_above.position = {0, 0, 6};
+  from_above.target = {0, 0, 0};
+  from_above.up = {0.6, 0.8, 0};
+  plan = from_above;
+  plan.position.z() = 500;
+  plan.far_m = 2000;
+  plan.ortho_height_m = 4;
+  from_below = from_above;
+  from_below.position.z() = -6;
+  Camera camera;
   const auto pixels_of = [&](const std::vector<SceneMarker>& markers, int channel) {
-    const Image image = Draw(With(markers));
+    const Image image = renderer_->Render(With(markers), camera, spec_);
     int count = 0;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
       const auto at = [&](int k) { return int{image.rgba[i + static_cast<std::size_t>(k)]}; };
@@ -224,12 +235,26 @@ TEST_F(MarkerDrawing, ShowsWhatLiesOnAMapWhole) {
   const SceneMarker map = square(3, {0, 0, 1, 1}, GroundLayer::kMap),
                     cells = square(1, {0, 1, 0, 1}, GroundLayer::kCells),
                     alone = square(1, {0, 1, 0, 1}, GroundLayer::kNone);
-  const int of_scan = pixels_of({scan}, 0), of_cells = pixels_of({cells}, 1);
-  ASSERT_GT(of_scan, 100);
-  ASSERT_GT(of_cells, 100);
-  EXPECT_NEAR(pixels_of({map, scan}, 0), of_scan, 0.03 * of_scan);
-  EXPECT_EQ(pixels_of({cells, map}, 1), of_cells) << "whatever their order";
-  EXPECT_GT(pixels_of({map, alone}, 1), 0) << "a marker, too";
+  for (const Camera& each : {Ahead(), from_above, plan}) {
+    SCOPED_TRACE(each.position.z());
+    camera = each;
+    const int of_scan = pixels_of({scan}, 0), of_cells = pixels_of({cells}, 1);
+    ASSERT_GT(of_scan, 100);
+    ASSERT_GT(of_cells, 100);
+    EXPECT_NEAR(pixels_of({map, scan}, 0), of_scan, 0.03 * of_scan);
+    EXPECT_EQ(pixels_of({cells, map}, 1), of_cells) << "whatever their order";
+    EXPECT_EQ(pixels_of({map, alone}, 1), pixels_of({alone}, 1)) << "a marker, too";
+    if (each.position.z() < 2) continue;  // that does not see what is below
+    SceneMarker below = square(1, {0, 1, 0, 0.9}, GroundLayer::kNone);
+    below.pose.position.z() = -1;
+    EXPECT_GT(pixels_of({below}, 1), 100);
+    EXPECT_EQ(pixels_of({map, below}, 1), 0) << "though it is drawn after it";
+  }
+  camera = from_below;
+  SceneMarker upstairs = square(1, {0, 1, 0, 1}, GroundLayer::kMap);
+  upstairs.pose.position.z() = 2;
+  EXPECT_GT(pixels_of({upstairs}, 1), 100);
+  EXPECT_EQ(pixels_of({map, upstairs}, 1), 0) << "seen from below";
 }
 
 TEST_F(MarkerDrawing, WritesTextsThatCanBeReadOnAnyBackground) {

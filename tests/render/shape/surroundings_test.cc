@@ -113,11 +113,16 @@ TEST(Surroundings, HaveMapsUnlitAndByTheirNameBeforeAllElse) {
   map.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
   const Glb glb(MakeSurroundingsWriter()->Write(Shared({Cube(), map}), {}));
   const json parts = glb.Primitives("markers");
-  ASSERT_EQ(parts.size(), 2u);
-  ExpectBox(glb.BoxOf(parts[0]), {0, 0, 0}, {1, 1, 0});
-  const json& material = glb.document()["materials"][parts[0]["material"].get<std::size_t>()];
-  EXPECT_EQ(material["name"], "ground");
-  EXPECT_TRUE(material["extensions"].contains("KHR_materials_unlit"));
+  ASSERT_EQ(parts.size(), 3u);
+  for (const std::size_t i : {0u, 1u}) {
+    ExpectBox(glb.BoxOf(parts[i]), {0, 0, 0}, {1, 1, 0});
+    const json& material = glb.document()["materials"][parts[i]["material"].get<std::size_t>()];
+    EXPECT_EQ(material["name"], i == 0 ? "ground depth" : "ground");
+    EXPECT_TRUE(material["extensions"].contains("KHR_materials_unlit"));
+  }
+  map.color.w() = 0.7;
+  const Glb clear(MakeSurroundingsWriter()->Write(Shared({map}), {}));
+  EXPECT_EQ(clear.Primitives("markers").size(), 1u) << "it hides nothing";
   EXPECT_EQ(glb.document()["extensionsUsed"], json{"KHR_materials_unlit"});
 }
 
