@@ -8,6 +8,7 @@
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 #include "server/body/body_color.h"
+#include "server/body/model_name.h"
 #include "server/options/ros_names.h"
 
 namespace kinescope::app {
@@ -19,13 +20,6 @@ using options::Number;
 using Frame = urdf::MeshConvention::Frame;
 
 constexpr char kOwnMeshes[] = "mesh:";
-
-// Links, joints and TF frames have it in their names.
-bool IsModelName(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
 
 urdf::AddedMass ToAddedMass(const std::string& item) try {
   return urdf::ParseAddedMass(item);

@@ -89,8 +89,15 @@ void ShownJoints::Add(const std::shared_ptr<const urdf::RobotModel>& model,
   for (const urdf::RobotJoint& joint : model->joints) {
     const auto number = static_cast<int>(joints_.size());
     const std::shared_ptr<const urdf::RobotJoint> of_model(model, &joint);
-    joints_.try_emplace(joint.name,
-                        ShownJoint{number, of_model, FrameOfLink(tf_prefix, joint.child_link)});
+    const std::string frame = FrameOfLink(tf_prefix, joint.child_link);
+    const auto [known, is_new] =
+        joints_.try_emplace(joint.name, ShownJoint{number, of_model, frame});
+    // Of several robots that of RViz, whose display of efforts has no prefix.
+    const ShownJoint& first = known->second;
+    const bool has_prefix = first.frame != FrameOfLink("", first.joint->child_link);
+    if (!is_new && has_prefix && tf_prefix.empty()) {
+      known->second = ShownJoint{first.number, of_model, frame};
+    }
   }
 }
 

@@ -3,9 +3,11 @@
 #include <ros/message_traits.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <limits>
 #include <string>
@@ -52,9 +54,27 @@ bool BeginsWith(const CameraImage& image, std::initializer_list<std::uint8_t> be
                     image.bytes->begin() + static_cast<std::ptrdiff_t>(image.begin));
 }
 
+// Of the size that a PNG begins with: those with more pixels are not unpacked
+// (render/image/png_file.cc).
+std::string WhyTooLarge(const CameraImage& png) {
+  constexpr std::uint64_t kMostPixels = 16'000'000;
+  constexpr std::size_t kWidthAt = 16, kHeightAt = 20, kSizeOfNumber = 4;
+  if (png.size < kHeightAt + kSizeOfNumber) return "";
+  const auto number_at = [&](std::size_t place) {
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < kSizeOfNumber; ++i) {
+      number = number << 8U | (*png.bytes)[png.begin + place + i];
+    }
+    return number;
+  };
+  const std::uint64_t width = number_at(kWidthAt), height = number_at(kHeightAt);
+  if (width * height <= kMostPixels) return "";
+  return fmt::format("a PNG of {} x {} px; at most {} px are unpacked", width, height, kMostPixels);
+}
+
 // Says what kind of file it is, by its first bytes; its `encoding` is the format that was stated.
 // Or why it cannot be shown.
-const char* TakeFile(CameraImage& image) {
+std::string TakeFile(CameraImage& image) {
   // compressed_depth_image_transport has three numbers before the picture; of floating-point
   // depths, a picture of their inverse.
   constexpr std::size_t kDepthHead = 12;
@@ -67,8 +87,11 @@ const char* TakeFile(CameraImage& image) {
     image.size -= kDepthHead;
   }
   if (BeginsWith(image, {0xff, 0xd8, 0xff})) image.encoding = "jpeg";
-  if (BeginsWith(image, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'})) image.encoding = "png";
-  return image.encoding.empty() ? "a compressed image that is neither JPEG nor PNG" : nullptr;
+  if (BeginsWith(image, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'})) {
+    image.encoding = "png";
+    return WhyTooLarge(image);
+  }
+  return image.encoding.empty() ? "a compressed image that is neither JPEG nor PNG" : "";
 }
 
 }  // namespace
@@ -98,9 +121,8 @@ Taken<CameraImage> ReadImage(const std::string& md5sum,
   }
   if (!is_whole) return tl::unexpected(Unreadable());
   if (is_file) {
-    if (const char* const defect = TakeFile(image)) {
-      return tl::unexpected(Refusal{"cannot be drawn", defect});
-    }
+    std::string defect = TakeFile(image);
+    if (!defect.empty()) return tl::unexpected(Refusal{"cannot be drawn", std::move(defect)});
   }
   const std::string defect = FindDefect(image);
   if (!defect.empty()) return tl::unexpected(Refusal{"cannot be drawn", "an image: " + defect});

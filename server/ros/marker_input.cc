@@ -56,8 +56,18 @@ void MakeOpaque(SceneMarker& lines) {
   for (Eigen::Vector4d& color : lines.colors) color.w() = 1;
 }
 
+// As of RViz, which multiplies both; with none of the first nothing would be seen.
+void FadeTriangles(SceneMarker& triangles) {
+  const double alpha = triangles.color.w();
+  if (!(alpha > 0 && alpha < 1)) return;
+  for (Eigen::Vector4d& color : triangles.colors) color.w() *= alpha;
+}
+
 void Take(const MarkerLook& look, SceneMarker& marker) {
-  if (marker.type == MarkerType::kTriangleList) marker.ground = look.ground;
+  if (marker.type == MarkerType::kTriangleList) {
+    marker.ground = look.ground;
+    if (!look.is_converted) FadeTriangles(marker);
+  }
   if (!AreLines(marker.type)) return;
   if (look.has_thin_lines) SizeInPixels(marker, 1);
   if (!look.is_converted) MakeOpaque(marker);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/body/body_color.h"
+#include "server/body/model_name.h"
 #include "server/scene/model_memory.h"
 
 namespace kinescope::app {
@@ -53,6 +54,12 @@ urdf::BodyDescription ModelFactory::BodyOf(const PersonChange& stated) const {
   return body;
 }
 
+std::string ModelFactory::NameOf(const PersonDescription& person) const {
+  if (settings_.takes_names && IsModelName(person.character.name)) return person.character.name;
+  const std::string& name = settings_.model_name;
+  return person.index > 0 ? name + "_" + std::to_string(person.index) : name;
+}
+
 std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& person,
                                                       std::uint64_t revision) const {
   auto model = std::make_shared<PersonModel>();
@@ -63,8 +70,7 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   model->landmarks = person.character.landmarks;
   model->color_rgb = person.character.color_rgb;
   urdf::HumanModel& human = model->human;
-  human.model_name = settings_.model_name;
-  if (person.index > 0) human.model_name += "_" + std::to_string(person.index);
+  human.model_name = NameOf(person);
   human.skeleton = person.character.skeleton.value_or(
       urdf::DefaultSkeleton(person.stated.height_m.value_or(settings_.height_m)));
   if (person.l5_in_pelvis) human.skeleton.origin_in_parent[urdf::kL5] = *person.l5_in_pelvis;

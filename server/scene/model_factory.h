@@ -19,6 +19,9 @@ namespace kinescope::app {
 
 struct ModelSettings {
   std::string model_name = "skeleton";  // prefix of links and joints; further people get _1, _2 ...
+  /// The name of a person that can be one is the prefix, in place of `model_name`: that of the TF
+  /// frames which another node publishes.
+  bool takes_names = false;
   urdf::BodyDescription body;
   double height_m = urdf::kDefaultHeight;  // of the default body, until the source sends segment
                                            // lengths, m
@@ -56,6 +59,7 @@ class ModelFactory {
                                           std::uint64_t revision) const;
 
  private:
+  std::string NameOf(const PersonDescription& person) const;
   void NameMeshes(PersonModel& model) const;
 
   const ModelSettings settings_;

@@ -12,6 +12,7 @@
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
 #include "core/system/ip_networks.h"
+#include "core/system/starts_with.h"
 #include "core/system/state_folder.h"
 #include "render/camera/camera.h"
 #include "server/alarms/rule_file.h"
@@ -227,6 +228,9 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
     // between two poses, and Kinescope would receive its own.
     config.ros->tf = "none";
     config.ros->completes_frames = true;
+    // Links have the names of these frames, so that RViz shows the body.
+    config.scene.takes_names = config.scene.model_name == SceneOptions().model_name &&
+                               !EndsWith(config.source_url, "link_states");
     config.notes.push_back(fmt::format(
         "TF frames of people from {} are not republished (as with --tf=none)", config.source_url));
   }

@@ -139,6 +139,20 @@ TEST(EffortRings, AreNotAboutJointsThatSlideOrThatAreLeftOut) {
   EXPECT_TRUE(is_deleted(Show(JointAbout({0, 0, 1}, 10), StateOf(5), style)));
 }
 
+TEST(EffortRings, AreAboutTheRobotWithoutAPrefixAmongSeveral) {
+  auto arm = std::make_shared<urdf::RobotModel>();
+  arm->joints = {JointAbout({0, 0, 1}, 10)};
+  arm->joints[0].child_link = "hand";
+  ShownJoints joints;
+  joints.Add(arm, "r1");
+  EXPECT_EQ(joints.Find("lift")->frame, "r1/hand");
+  joints.Add(arm, "");
+  EXPECT_EQ(joints.Find("lift")->frame, "hand");
+  joints.Add(arm, "r2");
+  EXPECT_EQ(joints.Find("lift")->frame, "hand");
+  EXPECT_FALSE(joints.Find("turn"));
+}
+
 TEST(EffortRings, SayWhyThereAreNone) {
   sensor_msgs::JointState state = StateOf(5);
   state.name = {"elbow"};

@@ -38,10 +38,13 @@ class LaunchFiles(unittest.TestCase):
                 if line.strip().startswith("<arg name=") and "value=" not in line:
                     self.assertIn(" doc=", line, file.name)
 
-    def test_xsens_client_takes_no_launch_file_down_that_includes_it(self):
+    def test_take_no_launch_file_down_that_includes_them(self):
         for rviz in ("true", "false"):
             for node in load("xsens_client.launch", launch_rviz=rviz).nodes:
                 self.assertFalse(node.required, node.name)
+        for name, arguments in (("rviz.launch", {}), ("rviz.launch", {"rviz_config_file": "/a.rviz"}), ("record.launch", {"bag": "/a"})):
+            for node in load(name, **arguments).nodes:
+                self.assertFalse(node.required, name)
 
     def test_joint_angles_as_streamed_are_an_argument(self):
         for name, node in (("xsens_client.launch", "xsens"), ("kinescope.launch", "kinescope"), ("bridge.launch", "kinescope")):

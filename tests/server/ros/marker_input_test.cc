@@ -430,6 +430,21 @@ TEST(MarkerStore, DrawsLinesOfMarkersAsOpaqueAsTheirColourIs) {
   EXPECT_NEAR(store.markers().at(2)->colors[0].w(), 0.3, 1e-6) << "ours are as they say";
 }
 
+TEST(MarkerStore, FadesTheColoursOfTrianglesWithThatOfAllOfThem) {
+  MarkerStore store;
+  const Cart cart;
+  Marker triangles = Of(Marker::TRIANGLE_LIST);
+  for (auto& color : triangles.colors) color.a = 0.8f;
+  for (const int topic : {0, 1, 2}) {
+    triangles.color.a = 0.5f * static_cast<float>(topic);
+    EXPECT_FALSE(store.Apply(static_cast<std::size_t>(topic), triangles, 0));
+  }
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_NEAR(store.markers().at(0)->colors[0].w(), 0.8, 1e-6);
+  EXPECT_NEAR(store.markers().at(1)->colors[0].w(), 0.4, 1e-6);
+  EXPECT_NEAR(store.markers().at(2)->colors[0].w(), 0.8, 1e-6);
+}
+
 TEST(MarkerStore, LaysMapsOnTheGroundAndDrawsPathsWithLinesOfAPixel) {
   MarkerStore store;
   const Cart cart;

@@ -588,6 +588,27 @@ TEST(SceneBuilder, DistinguishesTwoPeople) {
   EXPECT_EQ(built.last().people[1].model->human.model_name, "skeleton_1");
 }
 
+TEST(SceneBuilder, NamesLinksAfterPeopleIfTold) {
+  SceneOptions options;
+  options.takes_names = true;
+  Built built(options);
+  const char* const names[] = {"anna", "lab/ben", "carl"};
+  for (int person = 0; person < 3; ++person) {
+    Character character;
+    character.id = person;
+    character.name = names[person];
+    built.builder.OnCharacter(character);
+    BodySample sample = SampleOf("n_pose", 0);
+    sample.character = person;
+    built.builder.OnSample(sample);
+  }
+  ASSERT_EQ(built.last().people.size(), 3u);
+  const auto name = [&](std::size_t i) { return built.last().people[i].model->human.model_name; };
+  EXPECT_EQ(name(0), "anna");
+  EXPECT_EQ(name(1), "skeleton_1") << "a link cannot be called so";
+  EXPECT_EQ(name(2), "carl");
+}
+
 TEST(SceneBuilder, RemovesAPersonWhoLeft) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));

@@ -202,6 +202,18 @@ TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"ros", "required"}}).ros->tf, "flat");
 }
 
+TEST(ServeConfig, NamesLinksAfterTheFramesOfARosGraph) {
+  const auto takes_names = [](const char* source, const char* model = "skeleton") {
+    return ConfigOf({{"source", source}, {"ros", "required"}, {"model_name", model}})
+        .scene.takes_names;
+  };
+  EXPECT_TRUE(takes_names("ros:"));
+  EXPECT_TRUE(takes_names("ros:/lab/tf"));
+  EXPECT_FALSE(takes_names("ros:", "anna"));
+  EXPECT_FALSE(takes_names("ros:/xsens/link_states")) << "that is the name of a node";
+  EXPECT_FALSE(takes_names("demo:lift"));
+}
+
 TEST(ServeConfig, ChecksOptionsOfPartsThatAreOff) {
   const testing::Settings off = {{"ros", "off"}, {"pictures", "off"}, {"view", "off"}};
   const auto error_with = [&](const std::string& name, const std::string& text) {
