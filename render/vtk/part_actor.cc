@@ -30,13 +30,11 @@ ShaderText PartText(PartActor::Light light, int part_count) {
           "gl_FragData[0] = vec4(Lit(tintVS.rgb, normalVCVSOutput, skyVS), tintVS.a);\n";
       break;
     case PartActor::Light::kFlatBelow:
-      text.vertex += "  gl_Position.z += 2.0e-5 * gl_Position.w;\n";
-      text.fragment = "gl_FragData[0] = tintVS;\n";
-      break;
     case PartActor::Light::kBelowThat:
-      text.vertex += "  gl_Position.z += 4.0e-5 * gl_Position.w;\n";
-      text.fragment = "gl_FragData[0] = tintVS;\n";
-      break;
+      text.vertex += light == PartActor::Light::kFlatBelow
+                         ? "  gl_Position.z += 2.0e-5 * gl_Position.w;\n"
+                         : "  gl_Position.z += 4.0e-5 * gl_Position.w;\n";
+      [[fallthrough]];
     case PartActor::Light::kFlat: text.fragment = "gl_FragData[0] = tintVS;\n"; break;
     case PartActor::Light::kSoft:
       text.fragment =

@@ -216,16 +216,18 @@ void BagSurroundings::TakeShown(const ShownTopic& topic, std::size_t number,
   const auto undrawn =
       store_.ApplyAll(number, markers, message.recorded_nanos, topic.style,
                       TopicMarkers::LookOf(message.connection->md5sum, topic.style));
-  const std::string key = LackOf(message);
-  if (refused && refused->may_come) lacks_.insert(key);
+  if (refused && refused->may_come) lacks_.insert(LackOf(message));
   if (refused || undrawn) return Reject(message, refused ? *refused : *undrawn, counters);
-  // What had not come yet at the beginning is no news any more.
-  if (!markers.empty() && lacks_.erase(key) > 0) {
-    const auto begin = rejected_.lower_bound(key);
-    const auto end = std::find_if(begin, rejected_.end(),
-                                  [&](const auto& each) { return !StartsWith(each.first, key); });
-    rejected_.erase(begin, end);
-  }
+  if (!markers.empty() && !lacks_.empty()) ForgetLack(LackOf(message));
+}
+
+// What had not come yet at the beginning is no news any more.
+void BagSurroundings::ForgetLack(const std::string& key) {
+  if (lacks_.erase(key) == 0) return;
+  const auto begin = rejected_.lower_bound(key);
+  const auto end = std::find_if(begin, rejected_.end(),
+                                [&](const auto& each) { return !StartsWith(each.first, key); });
+  rejected_.erase(begin, end);
 }
 
 void BagSurroundings::TakeImage(const ShownTopic& topic, std::size_t number,

@@ -92,6 +92,7 @@ class BagSurroundings {
 
   const char* Decode(const BagMessage& message);
   static std::string LackOf(const BagMessage& message);
+  void ForgetLack(const std::string& key);
   void TakeMarkers(const BagMessage& message, SourceCounters& counters);
   void TakeShown(const ShownTopic& topic, std::size_t number, const BagMessage& message,
                  SourceCounters& counters);

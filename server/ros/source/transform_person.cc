@@ -29,6 +29,10 @@ constexpr std::array<ArmBone, 4> kArmBones = {{{urdf::kRightUpperArm, -1},
                                                {urdf::kLeftUpperArm, 1},
                                                {urdf::kLeftForeArm, 1}}};
 
+bool AreOfOneTime(std::int64_t header_nanos, std::int64_t record_nanos) {
+  return std::abs(header_nanos - record_nanos) < NodeClock::kFarNanos;
+}
+
 }  // namespace
 
 bool TransformPerson::HasSegments() const {
@@ -120,8 +124,7 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
   if (record_nanos < last_record_nanos_) StartOver(header_nanos, record_nanos);
   last_record_nanos_ = record_nanos;
   if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
-  headers_are_right_ = headers_are_right_ &&
-                       std::abs(header_nanos - record_nanos) < NodeClock::kFarNanos &&
+  headers_are_right_ = headers_are_right_ && AreOfOneTime(header_nanos, record_nanos) &&
                        (samples_ == 0 || header_nanos > last_header_nanos_);
   if (samples_ > 0 && header_nanos < last_header_nanos_) ++steps_back_;
   last_header_nanos_ = header_nanos;
@@ -144,8 +147,9 @@ void TransformPerson::StartOver(std::int64_t header_nanos, std::int64_t record_n
   headers_are_right_ = true;
   last_header_nanos_ = header_nanos - 1;
   // Headers that are of another time are not taken.
-  const bool is_far = std::abs(header_nanos - record_nanos) >= NodeClock::kFarNanos;
-  const std::int64_t earlier = is_far ? record_nanos : std::min(header_nanos, record_nanos);
+  const std::int64_t earlier = AreOfOneTime(header_nanos, record_nanos)
+                                   ? std::min(header_nanos, record_nanos)
+                                   : record_nanos;
   const std::int64_t before = earlier - kMinStepNanos;
   first_stamp_ += before - sample_.stamp_nanos;
   sample_.stamp_nanos = before;
