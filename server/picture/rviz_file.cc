@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <set>
 #include <string_view>
@@ -13,10 +12,10 @@
 #include "core/suit_colors.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
-#include "core/system/utf8.h"
 #include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/options/yaml_file.h"
+#include "server/picture/rviz_frames.h"
 #include "server/picture/rviz_topics.h"
 #include "server/picture/rviz_values.h"
 #include "server/picture/rviz_view.h"
@@ -27,16 +26,14 @@ namespace {
 using rviz::BoolOf;
 using rviz::LineOf;
 using rviz::Member;
+using rviz::Quoted;
+using rviz::Shown;
 using rviz::TextOf;
 
 constexpr int kDeepest = 100;  // levels; RViz writes trees of frames
 constexpr std::size_t kMostRemarks = 200;
 constexpr double kDarkest = 48.0 / 255;  // RViz's own background
-constexpr Rgb kGridColor = {160.0 / 255, 160.0 / 255, 164.0 / 255};
-constexpr double kLeastAhead = 0.1;              // m, from a camera to its target
-constexpr double kWidestHalf = 75 * M_PI / 180;  // rad, of the field of view
-constexpr double kFarthestCamera = 1000;         // m, of a camera
-constexpr double kNearest = 0.05;                // m, a clip distance that cuts nothing off
+constexpr double kNearest = 0.05;        // m, a clip distance that cuts nothing off
 // A namespace of our markers (server/ros/markers.h), and the part of the scene that they show.
 struct MarkerPart {
   const char* ns;
@@ -48,14 +45,6 @@ constexpr MarkerPart kMarkerParts[] = {{"loads", "loads"},
                                        {"support", "support"},
                                        {"foot_forces", "forces"},
                                        {"hand_loads", "hand_loads"}};
-
-// A text of the file may be long, and must do nothing to a terminal.
-std::string Shown(const std::string& text) {
-  constexpr std::size_t kLongest = 300;  // bytes
-  return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
-}
-
-std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
 
 class RvizReader {
  public:
@@ -106,7 +95,7 @@ class RvizReader {
     Set("background", ToHex(rgb), line);
     const double luma = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
-    picture_.fixed_frame = WithoutSlash(TextOf(all, "Fixed Frame", "map"));
+    picture_.fixed_frame = rviz::FrameOf(all, "Fixed Frame", "map");
     picture_.fixed_frame_line = LineOf(all.IsDefined() ? all : manager);
     if (!BoolOf(all, "Default Light", true)) {
       Remark(all, "Default Light is off; bodies are lit all the same");
@@ -162,8 +151,8 @@ class RvizReader {
         fmt::format("{} {}", kind.empty() ? "a display without a Class" : kind,
                     Quoted(TextOf(display, "Name", "")));
     NameBadColors(display, called);
-    if (kind == "rviz/Grid") {
-      ReadGrid(display, called);
+    if (rviz::IsFrameDisplay(kind)) {
+      ReadFrameDisplay(display, kind, called);
     } else if (kind == "rviz/RobotModel") {
       ReadRobotModel(display, called);
     } else if (kind == "rviz/Marker" || kind == "rviz/MarkerArray") {
@@ -187,113 +176,30 @@ class RvizReader {
     } else if (rviz::IsTopicDisplay(kind)) {
       if (kind == "rviz/Effort") rings_.emplace_back(display, called);
       ReadTopic(display, called, "Topic", StyleOf(display, kind, called));
-    } else if (kind == "rviz/Axes") {
-      ReadAxes(display, called);
-    } else if (kind == "rviz/TF") {
-      ReadFrames(display, called);
     } else {
       Remark(display, called + " is not drawn");
     }
   }
 
-  struct ReferenceFrame {
-    std::string name;  // "": that of the scene
-    bool is_fixed = false;
-  };
-  // nullopt, and named: the display cannot be drawn.
-  std::optional<ReferenceFrame> ReferenceFrameOf(const YAML::Node& display,
-                                                 const std::string& called) {
-    const std::string saved = WithoutSlash(TextOf(display, "Reference Frame", "<Fixed Frame>"));
-    const bool is_fixed = saved == "<Fixed Frame>" || saved == picture_.fixed_frame;
-    std::string name = is_fixed ? picture_.fixed_frame : saved;
-    if (name.empty() || IsFrameName(name)) return ReferenceFrame{std::move(name), is_fixed};
-    Remark(display, called + " is not drawn: " + Quoted(name) + " is no name of a frame");
-    return std::nullopt;
-  }
-
-  // Named, where the file has another number.
-  double Limited(const YAML::Node& of, const char* property, double usual, double least,
-                 double most, const std::string& called) {
-    const rviz::Limit limit = rviz::LimitOf(of, property, usual, least, most);
-    if (!limit.remark.empty()) Remark(of, called + ": " + limit.remark);
-    return limit.value;
-  }
-
-  // Without topics, the floor of the scene takes its place where it lies.
-  void ReadGrid(const YAML::Node& display, const std::string& called) {
-    const auto frame = ReferenceFrameOf(display, called);
-    if (!frame) return;
-    const std::string plane = TextOf(display, "Plane", "XY");
-    const Eigen::Vector3d offset = rviz::VectorOf(display, "Offset");
-    // Where they differ from a grid of ours, which is RViz's usual one.
-    std::vector<std::string> items;
-    AddCells(display, called, items);
-    if (plane == "XZ") items.emplace_back("plane=xz");
-    if (plane == "YZ") items.emplace_back("plane=yz");
-    if (offset.cwiseAbs().maxCoeff() > kFarthestCamera) {
-      Remark(display, called + ": its Offset is too far, and is not taken");
-    } else if (!offset.isZero()) {
-      items.push_back(fmt::format("at={}|{}|{}", options::NumberText(offset.x()),
-                                  options::NumberText(offset.y()),
-                                  options::NumberText(offset.z())));
-    }
-    AddLines(display, called, items);
-    if (!frame->name.empty()) {
-      items.emplace_back(frame->is_fixed ? "missing=scene" : "missing=origin");
-    }
-    RvizPicture::Topic grid{kGridInFrame + frame->name,
-                            items.empty() ? "" : fmt::format("({})", fmt::join(items, ",")),
-                            Shown(called), false, LineOf(display)};
-    grid.is_floor = plane != "XZ" && plane != "YZ";
-    grid.floor_differs = !frame->is_fixed || !offset.isZero();
-    has_floor_ = has_floor_ || grid.is_floor;
-    picture_.topics.push_back(std::move(grid));
-  }
-
-  static void AddItem(const char* key, double value, double usual,
-                      std::vector<std::string>& items) {
-    if (value != usual) items.push_back(key + ("=" + options::NumberText(value)));
-  }
-
-  void AddCells(const YAML::Node& display, const std::string& called,
-                std::vector<std::string>& items) {
-    AddItem("size", Limited(display, "Cell Size", 1, kSmallestShown, kLargestShown, called), 1,
-            items);
-    // As of a text, of which a number with a fraction is none.
-    const auto whole = [&](const char* property, double usual, double least, double most) {
-      const double value = Limited(display, property, usual, least, most, called);
-      return value == std::floor(value) ? value : least;
-    };
-    const double layers = whole("Normal Cell Count", 0, 0, kMostGridLayers);
-    const int most = layers > 0 ? kMostLayeredCells : kMostGridCells;
-    AddItem("cells", whole("Plane Cell Count", 10, 1, most), 10, items);
-    AddItem("layers", layers, 0, items);
-  }
-
-  void AddLines(const YAML::Node& display, const std::string& called,
-                std::vector<std::string>& items) {
-    const Rgb color = rviz::ColorOf(display, "Color", kGridColor);
-    if (color != kGridColor) items.push_back("color=" + ToHex(color));
-    const double alpha = rviz::NumberOf(display, "Alpha", 0.5, 0, 1);
-    if (alpha == 0) Remark(display, called + ": " + Invisible(display));
-    AddItem("alpha", alpha, 0.5, items);
-    const YAML::Node style = Member(display, "Line Style");
-    if (TextOf(style, "Value", "Lines") == "Billboards") {
-      const double width =
-          Limited(style, "Line Width", 0.03, kSmallestShown, kLargestShown, called);
-      AddItem("width", width, 0, items);
-    }
-  }
-
-  static std::string Invisible(const YAML::Node& display) {
-    return "Alpha " + Shown(TextOf(display, "Alpha", "")) + " is 0: it is not seen";
+  // Without topics, the floor of the scene takes the place of a level grid.
+  void ReadFrameDisplay(const YAML::Node& display, const std::string& kind,
+                        const std::string& called) {
+    std::vector<std::string> remarks;
+    const auto read = rviz::FrameDisplayOf(display, kind, picture_.fixed_frame, remarks);
+    for (const std::string& remark : remarks) Remark(display, called + ": " + remark);
+    if (!read) return Remark(display, called + " is not drawn: " + read.error());
+    picture_.topics.push_back({read->name, read->style, Shown(called), false, LineOf(display),
+                               read->is_every_frame, read->is_floor, read->floor_differs});
+    has_floor_ = has_floor_ || read->is_floor;
+    has_frames_ = has_frames_ || read->has_axes;
   }
 
   void NameOffsetOfPath(const YAML::Node& display, const std::string& called) {
     const YAML::Node offset = Member(display, "Offset");
     if (!offset.IsDefined() || !offset.IsMap()) return;
     for (const char* const axis : {"X", "Y", "Z"}) {
-      if (rviz::NumberOf(offset, axis, 0, -kFarthestCamera, kFarthestCamera) == 0) continue;
+      if (rviz::NumberOf(offset, axis, 0, -rviz::kFarthestCamera, rviz::kFarthestCamera) == 0)
+        continue;
       return Remark(display, called + ": Offset is not taken: the path is where it is");
     }
   }
@@ -362,7 +268,7 @@ class RvizReader {
     if (!has_model_ && alpha < 1) {
       Set("body_opacity", options::NumberText(alpha), LineOf(display));
     }
-    if (alpha == 0) Remark(display, called + ": " + Invisible(display));
+    if (alpha == 0) Remark(display, called + ": " + rviz::NotSeen(display));
     has_model_ = true;
   }
 
@@ -447,69 +353,6 @@ class RvizReader {
     return items.empty() ? "" : fmt::format("({})", fmt::join(items, ","));
   }
 
-  void ReadAxes(const YAML::Node& display, const std::string& called) {
-    const auto frame = ReferenceFrameOf(display, called);
-    if (!frame) return;
-    const auto metres = [&](const char* property, double usual) {
-      return options::NumberText(
-          Limited(display, property, usual, kSmallestShown, kLargestShown, called));
-    };
-    if (BoolOf(display, "Show Trail", false)) Remark(display, called + ": it has no trail");
-    std::string style = "(size=" + metres("Length", 1) + ",width=" + metres("Radius", 0.1);
-    const double alpha = rviz::NumberOf(display, "Alpha", 1, 0, 1);
-    if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
-    if (frame->is_fixed && !frame->name.empty()) style += ",missing=scene";
-    picture_.topics.push_back(
-        {kAxesOfFrame + frame->name, style + ")", Shown(called), false, LineOf(display)});
-  }
-
-  void ReadFrames(const YAML::Node& display, const std::string& called) {
-    for (const char* const filter : {"Filter (whitelist)", "Filter (blacklist)"}) {
-      if (TextOf(display, filter, "").empty()) continue;
-      Remark(display, called + ": " + filter + " is not taken: all frames are drawn");
-    }
-    constexpr double kLength = 0.2;  // m, of an axis of the scale 1
-    const auto number = [&](const char* property, double usual, double least, double most) {
-      return rviz::NumberOf(display, property, usual, least, most);
-    };
-    const double length =
-        kLength * number("Marker Scale", 1, 2 * kSmallestShown / kLength, kLargestShown / kLength);
-    std::string style = "(color=#ffffff,size=" + options::NumberText(length) +
-                        ",text=" + options::NumberText(length / 2);
-    const double alpha = number("Marker Alpha", 1, 0, 1);
-    if (alpha < 1) style += ",alpha=" + options::NumberText(alpha);
-    const auto switch_off = [&](const char* property, const char* key) {
-      if (!BoolOf(display, property, true)) style += std::string(",") + key + "=off";
-    };
-    switch_off("Show Axes", "axes");
-    switch_off("Show Names", "names");
-    switch_off("Show Arrows", "arrows");
-    style +=
-        ",timeout=" + options::NumberText(number("Frame Timeout", 15, 1, kLongestFrameTimeout));
-    picture_.topics.push_back({std::string(kAxesOfFrame) + kEveryFrame,
-                               style + HiddenFrames(display, called) + ")", Shown(called), false,
-                               LineOf(display), true});
-    has_frames_ = has_frames_ || BoolOf(display, "Show Axes", true);
-  }
-
-  // ",without=a|b"
-  std::string HiddenFrames(const YAML::Node& display, const std::string& called) {
-    const YAML::Node frames = Member(display, "Frames");
-    std::string names;
-    if (!frames.IsDefined() || !frames.IsMap()) return names;
-    for (const auto& frame : frames) {
-      if (!frame.first.IsScalar() || BoolOf(frame.second, "Value", true)) continue;
-      const std::string name = frame.first.as<std::string>();
-      if (name == "All Enabled") continue;  // what the last click on it was: no frame
-      if (IsFrameName(name)) {
-        names += (names.empty() ? ",without=" : "|") + name;
-      } else {
-        Remark(display, called + ": the frame " + Quoted(name) + " is not left out");
-      }
-    }
-    return names;
-  }
-
   // As RViz does, a display of single markers hears those of "<topic>_array", too.
   std::string MarkerStyleOf(const YAML::Node& display, const std::string& kind,
                             const std::string& called, bool is_ours) {
@@ -588,10 +431,10 @@ class RvizReader {
              view.why_not_as_saved +
                  (is_cut ? "; the file may be cut off: RViz ends it with Window Geometry" : ""));
     }
-    if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, kFarthestCamera) > kNearest) {
+    if (rviz::NumberOf(current, "Near Clip Distance", 0.01, 0, rviz::kFarthestCamera) > kNearest) {
       Remark(place, "Near Clip Distance is not taken: what is nearer is drawn, too");
     }
-    const std::string target = WithoutSlash(TextOf(current, "Target Frame", "<Fixed Frame>"));
+    const std::string target = rviz::FrameOf(current, "Target Frame", "<Fixed Frame>");
     const std::string kind = TextOf(current, "Class", "");
     picture_.target.line = LineOf(place);
     // RViz has nothing of a view that it cannot load.
@@ -601,39 +444,15 @@ class RvizReader {
     }
     if (kind == "rviz/ThirdPersonFollower") picture_.target.turn = ":heading";
     if (kind == "rviz/FrameAligned") picture_.target.turn = ":pose";
-    const render::Camera& camera = view.camera;
-    const double farthest =
-        std::max({camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff(),
-                  0.5 * camera.ortho_height_m / std::tan(kWidestHalf)});
-    if (!(farthest <= kFarthestCamera)) {
+    const auto camera = rviz::CameraOptionsOf(view.camera);
+    if (!camera) {
       Remark(place, fmt::format("the camera is more than {} m away; ours stays where it is",
-                                kFarthestCamera));
+                                rviz::kFarthestCamera));
       return;
     }
-    SetCamera(camera, LineOf(place));
-  }
-
-  void SetCamera(render::Camera camera, int line) {
-    const Eigen::Vector3d ahead = camera.target - camera.position;  // RViz goes as near as 1 mm
-    camera.target = camera.position + std::max(1.0, kLeastAhead / ahead.norm()) * ahead;
-    const auto point = [](const Eigen::Vector3d& p) {
-      return fmt::format("{},{},{}", options::NumberText(p.x()), options::NumberText(p.y()),
-                         options::NumberText(p.z()));
-    };
-    double fov = camera.vertical_fov_rad;
-    if (camera.is_orthographic()) {
-      // As far away as a field of view from 1° to 150° has this height.
-      const double half = camera.ortho_height_m / 2;
-      const double distance =
-          std::clamp((camera.position - camera.target).norm(), half / std::tan(kWidestHalf),
-                     half / std::tan(0.5 * M_PI / 180));
-      camera.position = camera.target - distance * ahead.normalized();
-      fov = 2 * std::atan2(0.5 * camera.ortho_height_m, (camera.position - camera.target).norm());
-    }
-    Set("camera", point(camera.position) + ":" + point(camera.target) + ":" + point(camera.up),
-        line);
-    Set("fov", options::NumberText(std::clamp(fov * 180 / M_PI, 1.0, 150.0)), line);
-    Set("projection", camera.is_orthographic() ? "orthographic" : "perspective", line);
+    Set("camera", camera->place, LineOf(place));
+    Set("fov", camera->fov, LineOf(place));
+    Set("projection", camera->projection, LineOf(place));
   }
 
   void ReadTime(const YAML::Node& panels) {
@@ -643,11 +462,6 @@ class RvizReader {
       if (TextOf(panel, "SyncMode", "0") == "0") continue;
       Remark(panel, "the Time panel's SyncMode is not taken: all are of the time of the picture");
     }
-  }
-
-  static std::string WithoutSlash(std::string frame) {
-    if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
-    return frame;
   }
 
   const std::string path_;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/system/utf8.h"
 #include "server/options/text.h"
 #include "server/picture/color_names.h"
 
@@ -128,6 +129,23 @@ bool AddHidden(const std::string& name, std::string& names) {
   if (name.empty() || name.find_first_of("|,;()=") != std::string::npos) return false;
   names += (names.empty() ? "" : "|") + name;
   return true;
+}
+
+std::string FrameOf(const YAML::Node& map, const std::string& name, const std::string& otherwise) {
+  std::string frame = TextOf(map, name, otherwise);
+  if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
+  return frame;
+}
+
+std::string Shown(const std::string& text) {
+  constexpr std::size_t kLongest = 300;  // bytes
+  return PrintableLine(text.size() > kLongest ? text.substr(0, kLongest) + "…" : text);
+}
+
+std::string Quoted(const std::string& text) { return "'" + Shown(text) + "'"; }
+
+std::string NotSeen(const YAML::Node& display) {
+  return "Alpha " + Shown(TextOf(display, "Alpha", "")) + " is 0: it is not seen";
 }
 
 int LineOf(const YAML::Node& node) { return node.Mark().line + 1; }

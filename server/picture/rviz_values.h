@@ -41,6 +41,15 @@ Rgb ColorOf(const YAML::Node& map, const std::string& name, const Rgb& otherwise
 /// Adds a name to those of "(without=a|b)" of --marker_topics, "a|b"; false: it cannot stand there.
 [[nodiscard]] bool AddHidden(const std::string& name, std::string& names);
 
+/// Of the property of a frame, without a slash before it.
+std::string FrameOf(const YAML::Node& map, const std::string& name, const std::string& otherwise);
+
+/// In messages: a text of the file may be long, and must do nothing to a terminal.
+std::string Shown(const std::string& text);
+std::string Quoted(const std::string& text);
+/// "Alpha 0.0 is 0: it is not seen"
+std::string NotSeen(const YAML::Node& display);
+
 /// From 1.
 int LineOf(const YAML::Node& node);
 

@@ -1,9 +1,12 @@
 #include "server/picture/rviz_view.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "server/options/text.h"
 #include "server/picture/rviz_values.h"
 
 namespace kinescope::app::rviz {
@@ -19,6 +22,8 @@ constexpr double kMostPitch = M_PI / 2 - 0.001;
 constexpr double kMost = 1e6;         // of numbers that RViz does not limit
 constexpr double kAboveFocus = 0.2;   // of the distance: how far XYOrbit moves the camera up
 constexpr double kOrthoHeight = 100;  // m above the floor; RViz has 500
+constexpr double kLeastAhead = 0.1;   // m, from a camera to its target
+constexpr double kWidestHalf = 75 * M_PI / 180;  // rad, of the field of view
 
 // Looks from `position` along x of `turn`, its z is up.
 Camera LookFrom(const Vector3d& position, const Matrix3d& turn) {
@@ -83,7 +88,35 @@ Camera TopDown(const YAML::Node& view, int height_px) {
   return camera;
 }
 
+std::string PointText(const Vector3d& p) {
+  return fmt::format("{},{},{}", options::NumberText(p.x()), options::NumberText(p.y()),
+                     options::NumberText(p.z()));
+}
+
 }  // namespace
+
+std::optional<CameraTexts> CameraOptionsOf(const Camera& saved) {
+  Camera camera = saved;
+  const double half = camera.ortho_height_m / 2;
+  const double farthest =
+      std::max({camera.position.cwiseAbs().maxCoeff(), camera.target.cwiseAbs().maxCoeff(),
+                half / std::tan(kWidestHalf)});
+  if (!(farthest <= kFarthestCamera)) return std::nullopt;
+  const Vector3d ahead = camera.target - camera.position;  // RViz goes as near as 1 mm
+  camera.target = camera.position + std::max(1.0, kLeastAhead / ahead.norm()) * ahead;
+  double fov = camera.vertical_fov_rad;
+  if (camera.is_orthographic()) {
+    // As far away as a field of view from 1° to 150° has this height.
+    const double distance = std::clamp((camera.position - camera.target).norm(),
+                                       half / std::tan(kWidestHalf), half / std::tan(M_PI / 360));
+    camera.position = camera.target - distance * ahead.normalized();
+    fov = 2 * std::atan2(half, distance);
+  }
+  return CameraTexts{
+      PointText(camera.position) + ":" + PointText(camera.target) + ":" + PointText(camera.up),
+      options::NumberText(std::clamp(fov * 180 / M_PI, 1.0, 150.0)),
+      camera.is_orthographic() ? "orthographic" : "perspective"};
+}
 
 View ViewOf(const YAML::Node& current, int height_px) {
   const std::string kind = TextOf(current, "Class", "");

@@ -17,6 +17,15 @@ struct View {
       why_not_as_saved;  // the class is missing or not RViz's own: RViz's first camera; "": it is
 };
 
+constexpr double kFarthestCamera = 1000;  // m, of a camera
+
+/// As --camera, --fov and --projection have it.
+struct CameraTexts {
+  std::string place, fov, projection;
+};
+/// nullopt: it is farther away than kFarthestCamera.
+std::optional<CameraTexts> CameraOptionsOf(const render::Camera& camera);
+
 /// Of `current`, the member Current of Views. TopDownOrtho counts in pixels per metre: it shows
 /// `height_px` of them.
 View ViewOf(const YAML::Node& current, int height_px);
