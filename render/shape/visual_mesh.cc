@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/palette.h"
+#include "render/shape/texture_image.h"
 #include "urdf/mesh/mesh_file.h"
 
 namespace kinescope::render {
@@ -48,8 +49,12 @@ const VisualReader::File& VisualReader::Read(const std::string& uri) {
   } else {
     const auto& path = std::get<std::filesystem::path>(found);
     try {
-      file->mesh = urdf::ReadMeshFile(path, urdf::ColladaUp::kIgnored);
+      urdf::TextureReading textures{DecodeTexture};
+      file->mesh = urdf::ReadMeshFile(path, urdf::ColladaUp::kIgnored, &textures);
       file->is_closed = file->mesh.IsClosed();
+      for (const std::string& problem : textures.problems) {
+        file->remarks.push_back("mesh " + uri + ": " + problem);
+      }
     } catch (const std::exception& error) {
       file->fault = error.what();
     }
@@ -95,6 +100,7 @@ void VisualReader::AddMesh(const urdf::Visual& visual, int part, VisualMesh& to)
     to.mesh.Paint(first, kPlaceholderColor, part);
     return;
   }
+  to.problems.insert(to.problems.end(), file.remarks.begin(), file.remarks.end());
   triangles_ += file.mesh.triangles.size() / 3;
   to.is_closed = to.is_closed && file.is_closed;
   to.mesh.Append(file.mesh, place);

@@ -25,7 +25,7 @@ struct VisualMesh {
   urdf::Mesh mesh;                        // positions in link frames
   bool is_closed = true;                  // no surface is visible from its back
   std::vector<Placeholder> placeholders;  // rendered as boxes
-  std::vector<std::string> problems;      // one line per mesh that cannot be shown
+  std::vector<std::string> problems;      // one line per mesh, or texture, that cannot be shown
 };
 
 /// 0..1; of the URDF's colour, 1 where it names none.
@@ -57,7 +57,8 @@ class VisualReader {
   struct File {
     urdf::Mesh mesh;
     bool is_closed = false;
-    std::string fault;  // "": no error
+    std::string fault;                 // "": no error
+    std::vector<std::string> remarks;  // what of it is not drawn
   };
   const File& Read(const std::string& uri);
   void AddOpaque(const urdf::Visual& visual, int part, VisualMesh& to);

@@ -54,16 +54,16 @@ urdf::Mesh DomeMesh() {
 // In its place where it is small: its rim, filled with as large triangles as possible. llvmpipe
 // shades 4 x 4 pixels for a triangle that covers one.
 urdf::Mesh DiscMesh() {
-  constexpr std::uint32_t kCorners = 16;
+  constexpr std::uint32_t kRimCorners = 16;
   urdf::Mesh mesh;
-  for (std::uint32_t i = 0; i < kCorners; ++i) {
-    const double angle = 2 * M_PI * i / kCorners;
+  for (std::uint32_t i = 0; i < kRimCorners; ++i) {
+    const double angle = 2 * M_PI * i / kRimCorners;
     const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
     mesh.AddVertex({x, y, 0}, {x, y, 0});
   }
-  for (std::uint32_t step = 1; step < kCorners; step *= 2) {
-    for (std::uint32_t i = 0; i + 2 * step <= kCorners; i += 2 * step) {
-      const std::uint32_t last = (i + 2 * step) % kCorners;
+  for (std::uint32_t step = 1; step < kRimCorners; step *= 2) {
+    for (std::uint32_t i = 0; i + 2 * step <= kRimCorners; i += 2 * step) {
+      const std::uint32_t last = (i + 2 * step) % kRimCorners;
       if (i != last) mesh.AddTriangle(i, i + step, last);
     }
   }

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -198,12 +199,83 @@ Eigen::Affine3d ToEigen(const aiMatrix4x4& m) {
   return to;
 }
 
+// The pictures of the materials of a scene: in the file itself, or beside it.
+class TextureSource {
+ public:
+  /// `reading`: null: none is read.
+  TextureSource(const aiScene& scene, const fs::path& folder, TextureReading* reading)
+      : scene_(scene), folder_(folder), reading_(reading) {}
+
+  /// Null: the mesh has none, or one that cannot be read.
+  const Texture* Find(const aiMesh& mesh) {
+    if (reading_ == nullptr || mesh.mMaterialIndex >= scene_.mNumMaterials) return nullptr;
+    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+    aiString name;
+    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS) return nullptr;
+    const auto [known, is_new] = textures_.try_emplace(name.C_Str());
+    if (is_new) {
+      try {
+        if (mesh.mTextureCoords[0] == nullptr) throw Fault("the mesh has no texture coordinates");
+        known->second = Read(known->first);
+      } catch (const std::exception& error) {
+        reading_->problems.push_back("its texture '" + known->first +
+                                     "' is not drawn: " + error.what());
+      }
+    }
+    return known->second && mesh.mTextureCoords[0] != nullptr ? &*known->second : nullptr;
+  }
+
+ private:
+  Texture Read(const std::string& name) const {
+    if (const aiTexture* const inside = scene_.GetEmbeddedTexture(name.c_str())) {
+      if (inside->mHeight != 0) throw Fault("it is neither PNG nor JPEG");
+      return reading_->decode(reinterpret_cast<const std::uint8_t*>(inside->pcData),
+                              inside->mWidth);
+    }
+    const std::string bytes = ReadBytes(PathOf(name));
+    return reading_->decode(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+
+  // Packages of robots have a folder for meshes and one for textures.
+  fs::path PathOf(const std::string& name) const {
+    std::error_code error;
+    const fs::path package = fs::weakly_canonical(folder_, error).parent_path();
+    const fs::path path = fs::weakly_canonical(folder_ / name, error);
+    const bool is_there =
+        !folder_.empty() && !error && !fs::path(name).is_absolute() &&
+        std::mismatch(package.begin(), package.end(), path.begin(), path.end()).first ==
+            package.end();
+    if (is_there) return path;
+    throw Fault("it is neither beside the mesh nor in a folder beside that of the mesh");
+  }
+
+  const aiScene& scene_;
+  const fs::path folder_;
+  TextureReading* const reading_;
+  std::map<std::string, std::optional<Texture>> textures_;
+};
+
+std::vector<Eigen::Vector2f> PlacesOn(const aiMesh& mesh) {
+  std::vector<Eigen::Vector2f> uv;
+  uv.reserve(mesh.mNumVertices);
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    uv.emplace_back(mesh.mTextureCoords[0][i].x, mesh.mTextureCoords[0][i].y);
+  }
+  return uv;
+}
+
 // Every node's meshes where the node is.
 class Collector {
  public:
-  Collector(const aiScene& scene, const std::string& extension)
+  Collector(const aiScene& scene, const std::string& extension, TextureSource& textures)
       : scene_(scene), is_linear_(extension == ".glb"), has_colors_(extension != ".stl") {
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) meshes_.push_back(ToMesh(*scene.mMeshes[i]));
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene.mMeshes[i];
+      meshes_.push_back(ToMesh(mesh));
+      if (const Texture* const texture = textures.Find(mesh)) {
+        PaintTexture(*texture, PlacesOn(mesh), meshes_.back());
+      }
+    }
   }
 
   Mesh Collect(const Eigen::Affine3d& world_from_root) {
@@ -237,9 +309,11 @@ class Collector {
     if (mesh_.triangles.size() + mesh.triangles.size() > 3 * kMaxMeshTriangles) {
       throw Fault("more than " + std::to_string(kMaxMeshTriangles) + " triangles");
     }
-    const auto color =
-        has_colors_ ? ColorOf(scene_, *scene_.mMeshes[index], is_linear_) : std::nullopt;
-    any_color_ = any_color_ || color;
+    const bool is_painted = !mesh.colors.empty();
+    const auto color = has_colors_ && !is_painted
+                           ? ColorOf(scene_, *scene_.mMeshes[index], is_linear_)
+                           : std::nullopt;
+    any_color_ = any_color_ || color || is_painted;
     mesh_.Append(mesh, place);
     // Zero opacity: none of its own.
     mesh_.colors.resize(mesh_.positions.size(), color.value_or(Eigen::Vector4f::Zero()));
@@ -279,14 +353,14 @@ void TurnOutwards(Mesh& mesh) {
 
 }  // namespace
 
-Mesh ReadMeshFile(const fs::path& path, ColladaUp up) try {
-  return ReadMesh(ReadBytes(path), LowerExtension(path), path.parent_path(), up);
+Mesh ReadMeshFile(const fs::path& path, ColladaUp up, TextureReading* textures) try {
+  return ReadMesh(ReadBytes(path), LowerExtension(path), path.parent_path(), up, textures);
 } catch (const std::exception& error) {
   throw Fault("mesh " + path.string() + ": " + error.what());
 }
 
 Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::path& folder,
-              ColladaUp up) {
+              ColladaUp up, TextureReading* textures) {
   CheckMeshBytes(bytes, extension);
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(bytes, extension, folder));  // it deletes it
@@ -308,7 +382,8 @@ Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::
   if (extension == ".glb" || (extension == ".dae" && !ignores_up)) {
     world_from_root.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
-  Mesh mesh = Collector(*scene, extension).Collect(world_from_root);
+  TextureSource pictures(*scene, folder, textures);
+  Mesh mesh = Collector(*scene, extension, pictures).Collect(world_from_root);
   if (mesh.triangles.empty()) throw Fault("it contains no triangles");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!mesh.positions[i].allFinite()) throw Fault("a vertex is not finite");
