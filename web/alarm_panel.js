@@ -99,7 +99,7 @@ export class AlarmPanel {
     setText(parts.stars, first ? stars(first) : '');
     setText(parts.head, first ? headline(first, page.jointLabel) : alarms.isCurrent ? 'No alarm' : 'Alarms unknown');
     setText(parts.detail, first ? detailText(first, alarms.count - 1, micros) : !alarms.isCurrent ? 'the server does not answer'
-      : last ? `last: ${headline(last, page.jointLabel)}, ${clockText(page.wallMillis(last.began.micros), 1)}` : 'none since the start');
+      : last ? `last: ${headline(last, page.jointLabel)}, ${this.#beganText(last)}` : 'none since the start');
     parts.show.disabled = !page.canPress || !(alarms.shown.some(hasMoment) || last !== null);
     parts.acknowledge.hidden = first === null || !isNew(first);
     this.#tellLoss(alarms.shown.some(({ id }) => id === SERVER_LOST));
@@ -137,10 +137,16 @@ export class AlarmPanel {
     const recent = alarms.countBefore(page.newestMicros());
     setText(parts.rate, recent > TOO_MANY ? `${recent} in the last 10 minutes: raise the limits` : `${recent} in the last 10 minutes`);
     parts.rate.classList.toggle('warn', recent > MANY);
-    const drawn = JSON.stringify(log.map((alarm) => (alarm.is_on ? { ...alarm, value: null } : alarm)));
+    const drawn = JSON.stringify(log.map((alarm) => [this.#beganText(alarm), alarm.is_on ? { ...alarm, value: null } : alarm]));
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     parts.list.replaceChildren(...log.map((alarm) => this.#entry(alarm)));
+  }
+
+  /** @param {Alarm} alarm
+   *  @returns {string} the time of day at which it began */
+  #beganText(alarm) {
+    return clockText(this.page.wallMillis(alarm.began.micros), 1);
   }
 
   /** @param {Alarm} alarm */
@@ -153,7 +159,7 @@ export class AlarmPanel {
     name.textContent = headline({ ...alarm, value: alarm.worst }, page.jointLabel);  // of the past, the worst
     const length = alarm.over ? `lasted ${lengthText(alarm, 0)}` : 'is on';
     const who = alarm.acknowledged ? `acknowledged by ${alarm.acknowledged.role}` : alarm.is_shown ? 'not acknowledged' : '';
-    when.textContent = [clockText(page.wallMillis(alarm.began.micros), 1), length, limitText(alarm), who].filter(Boolean).join(' · ');
+    when.textContent = [this.#beganText(alarm), length, limitText(alarm), who].filter(Boolean).join(' · ');
     go.type = 'button';
     go.className = 'go';
     go.title = `Show the moment when it began (worst: ${valueText(alarm.worst, alarm)})`;

@@ -119,7 +119,9 @@ const picture = new PicturePanel({
 const handLoad = mountHandLoad({
   form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
 }, showNotice);
-const charts = new Charts(elements, shown, { model: () => model, failed: showNotice, person, canPress: layout.hasControls });
+const charts = new Charts(elements, shown, {
+  model: () => model, failed: showNotice, person, serverMillis: () => connection.clock.at(performance.now()), canPress: layout.hasControls,
+});
 if (linked.joints) charts.plots.choose(linked.joints);
 if (linked.window) charts.plots.chooseWindow(linked.window);
 const showTransport = mountTransport({
@@ -202,6 +204,7 @@ function meetServer(started) {
   model = null;
   picture.forget();
   scene?.forget();
+  elements.points.hidden = true;
   charts.forget();
   marks.forgetRevision();
   alarms.forget();
@@ -522,6 +525,7 @@ function showPeople(isFresh) {
   const fresh = isFresh ? rows : rows.map(asUnknown);
   showLoads(fresh);
   const one = person.of(now.people);
+  if (one) elements.points.hidden = false;  // its symbols are those of people: robots alone have none
   const isWritten = cards.show(now, texts.people, fresh, one?.character, performance.now());
   announcer.showClasses(fresh, isFresh && shown.isNewest, performance.now());
   const readings = readingsOf(one, texts.people.find(({ character }) => character === one?.character), isFresh);

@@ -1,6 +1,7 @@
 // The strip of time and the plots: gives them what is on the screen, and loads what they lack.
 import { BodyMap } from './body_map.js';
 import { personLabel } from './format.js';
+import { colorNumber } from './person_cards.js';
 import { Plots } from './plots.js';
 import { Feed } from './series.js';
 import { Strip } from './strip.js';
@@ -8,14 +9,14 @@ import { WallClock } from './wall_clock.js';
 
 /** @typedef {import('./state_codec.js').State} State
  *  @typedef {{model: () => import('./messages.js').Model|null, failed: (text: string) => void,
- *    person: import('./chosen_person.js').ChosenPerson, canPress: boolean}} Page
- *    failed: shows why something did not work; canPress: whether the joints of the map can be pressed */
+ *    person: import('./chosen_person.js').ChosenPerson, serverMillis: () => number|null, canPress: boolean}} Page
+ *    failed: shows why something did not work; serverMillis: now, by the server's clock, null before its first answer;
+ *    canPress: whether the joints of the map can be pressed */
 
 export class Charts {
   #feed = new Feed();
   #clock = new WallClock();
-  #newest = NaN;
-  /** @type {{character: number, label: string}[]} */ #people = [];  // all who were in the stream since the page was opened
+  /** @type {import('./strip.js').StripPerson[]} */ #people = [];  // all who were in the stream since the page was opened
 
   /** @param {import('./elements.js').Elements} elements
    *  @param {import('./shown.js').Shown} shown
@@ -56,7 +57,7 @@ export class Charts {
   }
 
   /** @param {number} micros  a moment of the server's clock
-   *  @returns {number}  ms of the browser's clock */
+   *  @returns {number}  its time of day, ms, as Date has it; NaN: not known yet */
   wallMillis(micros) {
     return this.#clock.at(micros);
   }
@@ -66,9 +67,10 @@ export class Charts {
    *  @param {boolean} isFresh  whether what is shown is of now, or was when it was the newest */
   update(now, isFresh) {
     const kept = this.shown.kept(), model = this.page.model(), live = this.shown.newest, { time } = this.shown;
+    this.#clock.update({
+      newest: live, recording: this.shown.newestDetails.recording, serverMillis: this.page.serverMillis(), wallMillis: Date.now(),
+    });
     if (kept === null || live === null || document.hidden) return;
-    if (live.madeMicros !== this.#newest) this.#clock.add(live.madeMicros / 1000, Date.now());
-    this.#newest = live.madeMicros;
     this.#meet(live);
     const when = {
       oldest: 1000 * kept.oldest, newest: 1000 * kept.newest, moment: 1000 * time.momentAt(now, kept),
@@ -88,7 +90,7 @@ export class Charts {
       const label = personLabel({ character, name: names.find((each) => each.character === character)?.name ?? '' });
       const known = this.#people.find((each) => each.character === character);
       if (known) known.label = label;
-      else this.#people = [...this.#people, { character, label }].sort((a, b) => a.character - b.character);
+      else this.#people = [...this.#people, { character, label, color: colorNumber(character) }].sort((a, b) => a.character - b.character);
     }
     this.#people = this.#people.filter(({ character }) =>
       live.people.some((each) => each.character === character) || this.strip.hasSamplesOf(character));

@@ -293,7 +293,7 @@ export class Plots {
     if (series === null || !this.isVisible) return;
     this.#when = when;
     const window = { ...this.window.at(when), moment: when.moment, wallMillis: when.wallMillis };
-    const drawn = JSON.stringify([window, series.changes, series.grid.person, this.parts.list.clientWidth, now]);
+    const drawn = JSON.stringify([window, window.wallMillis(0), series.changes, series.grid.person, this.parts.list.clientWidth, now]);
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     for (const { plot } of this.figures) plot.draw(series, window);

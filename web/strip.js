@@ -6,6 +6,8 @@ import { Series } from './series.js';
 import { theme } from './theme.js';
 
 export const STRIP_KEYS = /** @type {const} */ (['high_joints', 'medium_joints', 'unknown_joints', 'loss']);
+const LABEL_PX = 12, LEAST_LABEL_PX = 10, LABEL_GAP_PX = 0.5;  // smaller where rows are lower, with a gap between two names
+const COLOR_PX = 5;  // of a person, beside the row
 const SIGN_PX = 21;  // of a mark, two letters
 const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13, ALARMS_PX = 8;
 const LOW_PX = 64;  // below this height people and alarms have all of it
@@ -20,10 +22,13 @@ const MOST_LOSS = 0.08;  // fills the row
 
 /** @typedef {{high: number, medium: number, isUnknown: boolean, loss: number}} Look  numbers of joints; share of samples
  *  @typedef {{micros: number, endMicros: number|null, label: string}} Mark  endMicros: of a span
- *  @typedef {{label: string, series: Series[]}} Row
+ *  @typedef {{character: number, label: string, color: number}} StripPerson  color: number of the person's colour
+ *  @typedef {{label: string, color: number|null, series: Series[]}} Row  color: null: of several people
  *  @typedef {import('./messages.js').Alarm} Alarm
  *  @typedef {{oldest: number, newest: number, moment: number, isLive: boolean, wallMillis: (micros: number) => number}} When
- *    µs of the server's clock; wallMillis: of a moment, by the browser's clock */
+ *    µs of the server's clock; wallMillis: the time of day of a moment, ms
+ *  @typedef {{text: string, px: number, y: number, top: number, bottom: number}} Label  px: of the font; y: of
+ *    its middle; top, bottom: of its letters */
 
 /** @param {number} micros  length of the history
  *  @returns {number}  that the strip covers, µs */
@@ -54,6 +59,30 @@ function lookOf(series, from, to) {
   const [high, medium, unknown, loss] = STRIP_KEYS.map((key) => series.worst(from, to, key)?.max ?? null);
   if (unknown === null) return null;
   return { high: high ?? 0, medium: medium ?? 0, isUnknown: unknown >= MANY_JOINTS, loss: loss ?? 0 };
+}
+
+/** Those that have room beside the ones before them.
+ *  @template {{top: number, bottom: number}} L
+ *  @param {readonly L[]} labels
+ *  @returns {L[]} */
+export function labelsThatFit(labels) {
+  /** @type {L[]} */ const fitting = [];
+  for (const label of labels) {
+    const isApart = fitting.every(({ top, bottom }) => label.top >= bottom + LABEL_GAP_PX || label.bottom <= top - LABEL_GAP_PX);
+    if (isApart) fitting.push(label);
+  }
+  return fitting;
+}
+
+/** The text, or its beginning and an ellipsis.
+ *  @param {string} text
+ *  @param {number} most  px
+ *  @param {(text: string) => number} widthOf  px */
+export function shortened(text, most, widthOf) {
+  if (widthOf(text) <= most) return text;
+  const letters = [...text];
+  while (letters.length > 0 && widthOf(`${letters.join('')}…`) > most) letters.pop();
+  return `${letters.join('')}…`;
 }
 
 /** "high", "medium", "unknown", "low"; "no samples".
@@ -122,17 +151,17 @@ export class Strip {
     return [...this.#series.values()].map((series) => ({ series, from: oldest, to: newest }));
   }
 
-  /** @param {{character: number, label: string}[]} people
+  /** @param {StripPerson[]} people
    *  @returns {Row[]} */
   #rows(people) {
-    const rows = people.map(({ character, label }) => ({ label, series: [this.#series.get(character) ?? []].flat() }));
+    const rows = people.map(({ character, label, color }) => ({ label, color, series: [this.#series.get(character) ?? []].flat() }));
     const rest = rows.slice(MOST_ROWS - 1);
     if (rest.length < 2) return rows;
-    return [...rows.slice(0, MOST_ROWS - 1), { label: `+ ${rest.length}`, series: rest.flatMap(({ series }) => series) }];
+    return [...rows.slice(0, MOST_ROWS - 1), { label: `+ ${rest.length}`, color: null, series: rest.flatMap(({ series }) => series) }];
   }
 
   /** The worst classes at a moment in words: "Anna high, Ben low".
-   *  @param {{character: number, label: string}[]} people
+   *  @param {StripPerson[]} people
    *  @param {number} micros */
   wordsAt(people, micros) {
     return this.#rows(people).filter(({ series }) => series.length > 0).map(({ label, series }) => {
@@ -141,7 +170,7 @@ export class Strip {
     }).join(', ');
   }
 
-  /** @param {{character: number, label: string}[]} people
+  /** @param {StripPerson[]} people
    *  @param {When} when */
   draw(people, when) {
     const { canvas, slider } = this.parts;
@@ -150,7 +179,7 @@ export class Strip {
     if (inner <= 0 || height <= 0) return;
     const rows = this.#rows(people);
     const changes = rows.map(({ label, series }) => [label, ...series.map((each) => each.changes)]);
-    const drawn = JSON.stringify([width, height, dpr, when, changes]);
+    const drawn = JSON.stringify([width, height, dpr, when, when.wallMillis(0), changes]);
     if (drawn === this.#drawn) return;
     this.#drawn = drawn;
     const span = spanOf(when.newest - when.oldest), right = GUTTER_PX + inner;
@@ -202,7 +231,13 @@ class Painter {
     const isLow = frame.height < LOW_PX, bottom = frame.height - AXIS_PX;
     const top = marks === null || isLow ? 0 : MARKS_PX, losses = bottom - ALARMS_PX - (isLow ? 0 : LOSS_PX);
     const each = (losses - top) / Math.max(1, rows.length);
-    rows.forEach((row, i) => this.#row(row, top + i * each + 1, each - 3));
+    const px = Math.min(LABEL_PX, Math.max(LEAST_LABEL_PX, Math.floor(each - LABEL_GAP_PX)));
+    const isNamed = this.#labels([
+      ...(top > 0 ? [this.#labelOf('Marks', MARKS_PX / 2, LABEL_PX)] : []),
+      ...(isLow ? [] : [this.#labelOf('Lost', losses + LOSS_PX / 2 - 1, LABEL_PX)]),
+      ...rows.map(({ label }, i) => this.#labelOf(label, top + (i + 0.5) * each - 0.5, px)),
+    ]);
+    rows.forEach((row, i) => this.#row(row, top + i * each + 1, each - 3, !isNamed));
     if (!isLow) this.#losses(rows, losses, LOSS_PX - 2);
     this.#alarms(alarms, bottom - ALARMS_PX);
     this.#clock(bottom);
@@ -210,19 +245,33 @@ class Painter {
     if (marks !== null && !isLow) this.#flags(marks);
   }
 
-  /** @param {string} text
-   *  @param {number} y  of its middle */
-  #label(text, y) {
-    const { context } = this;
-    context.save();
-    context.beginPath();
-    context.rect(0, 0, GUTTER_PX - 4, this.frame.height);
-    context.clip();
-    context.font = `12px ${this.font}`;
+  /** Names at the left. Those that would touch the ones before them are left out.
+   *  @param {Label[]} labels
+   *  @returns {boolean} whether all are drawn */
+  #labels(labels) {
+    const { context } = this, fitting = labelsThatFit(labels);
     context.textAlign = 'left';
     this.#use('quiet');
-    context.fillText(text, 0, y);
-    context.restore();
+    for (const { text, px, y } of fitting) {
+      context.font = `${px}px ${this.font}`;
+      context.fillText(text, 0, y);
+    }
+    return fitting.length === labels.length;
+  }
+
+  /** @param {string} label
+   *  @param {number} middle  px
+   *  @param {number} px  of the font
+   *  @returns {Label} */
+  #labelOf(label, middle, px) {
+    const { context } = this;
+    context.font = `${px}px ${this.font}`;
+    const text = shortened(label, GUTTER_PX - COLOR_PX - 2, (part) => context.measureText(part).width);
+    const { actualBoundingBoxAscent: above, actualBoundingBoxDescent: below } = context.measureText(text);
+    const capital = context.measureText('M');  // the middle of a font is above that of its capitals
+    const centred = middle + (capital.actualBoundingBoxAscent - capital.actualBoundingBoxDescent) / 2;
+    const y = Math.max(centred, above);  // not above the strip
+    return { text, px, y, top: y - above, bottom: y + below };
   }
 
   /** Columns from the left to the right: where they are, and the time that they cover.
@@ -238,10 +287,14 @@ class Painter {
 
   /** @param {Row} row
    *  @param {number} top
-   *  @param {number} height */
-  #row({ label, series }, top, height) {
+   *  @param {number} height
+   *  @param {boolean} hasColor  that of its person, as names are missing */
+  #row({ series, color }, top, height, hasColor) {
     const { context, frame } = this;
-    this.#label(label, top + height / 2);
+    if (hasColor && color !== null) {
+      this.#use(`person-${color}`);
+      context.fillRect(GUTTER_PX - COLOR_PX, top, COLOR_PX - 1, height);
+    }
     this.#use('track');
     const left = Math.max(frame.right - frame.inner, frame.xOf(frame.when.oldest));
     context.fillRect(left, top, frame.right - left, height);
@@ -278,7 +331,6 @@ class Painter {
   #losses(rows, top, height) {
     const { context, frame } = this;
     const all = rows.flatMap(({ series }) => series);
-    this.#label('Lost', top + height / 2);
     this.#use('line');
     context.fillRect(frame.right - frame.inner, top + height, frame.inner, 1);
     this.#use('loss');
@@ -351,7 +403,6 @@ class Painter {
   /** @param {Mark[]} marks */
   #flags(marks) {
     const { context, frame: { when, xOf, right } } = this;
-    this.#label('Marks', MARKS_PX / 2);
     context.font = `700 11px ${this.font}`;
     context.textAlign = 'center';
     for (const { micros, endMicros, label, hasRoom } of flagsApart(marks, { from: when.oldest, to: when.newest }, xOf, SIGN_PX)) {
@@ -374,9 +425,10 @@ class Painter {
 }
 
 /** "10:31", or "10:31:20" where a minute has several labels.
- *  @param {number} wall  ms
+ *  @param {number} wall  ms; NaN: not known
  *  @param {number} step  ms from label to label */
 export function clockText(wall, step) {
+  if (Number.isNaN(wall)) return '–';
   const time = new Date(wall);
   const parts = [time.getHours(), time.getMinutes(), ...(step < 60_000 ? [time.getSeconds()] : [])];
   return parts.map((part) => String(part).padStart(2, '0')).join(':');

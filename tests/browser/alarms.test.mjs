@@ -33,6 +33,17 @@ after(async () => {
   await rm(folder, { recursive: true });
 });
 
+/** The first time of day in a text, s since midnight. */
+const secsIn = (text) => {
+  const [hours, minutes, secs] = text.match(/\d\d:\d\d:\d\d/)[0].split(':').map(Number);
+  return 3600 * hours + 60 * minutes + secs;
+};
+/** When the oldest alarm of the list began. */
+async function firstBeganAt(page) {
+  await chooseTab(page, 'alarms');
+  await page.waitForFunction(() => /^\d\d:/.test(document.querySelector('#alarm-list li:last-child small')?.textContent), null, LONG);
+  return secsIn(await page.textContent('#alarm-list li:last-child small'));
+}
 const alarmIs = (page, state) => page.waitForFunction(
   (wanted) => document.getElementById('alarm').dataset.state === wanted, state, LONG);
 const headIs = (page, pattern) => page.waitForFunction(
@@ -150,6 +161,24 @@ test('a lost stream raises without a rule, on the phone, too, and ends by itself
   await saveScreenshot(page, 'alarm_lost_phone');
   site.say('live');
   await alarmIs(page, 'none');
+  await close();
+  await site.stop();
+});
+
+test('a page that is opened after the stream has stopped shows when an alarm began, as a page that was open then', async () => {
+  const site = await start();
+  const { page, close } = await open(site.url);
+  site.say('compression 3720');
+  await alarmIs(page, 'on');
+  site.say('compression 2000');
+  await alarmIs(page, 'over');
+  const began = await firstBeganAt(page);
+  site.say('stale');
+  await page.waitForFunction(() => /last sample received ([5-9]|\d\d)/.test(document.getElementById('banner').textContent), null, LONG);
+  const late = await open(site.url);
+  const seen = await firstBeganAt(late.page);
+  assert.ok(Math.abs(seen - began) <= 1, `${seen - began} s later`);
+  await late.close();
   await close();
   await site.stop();
 });

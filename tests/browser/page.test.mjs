@@ -146,12 +146,32 @@ test('the status follows a stream that stops, is missing and starts again', asyn
   site.say('nodata');
   await statusIs(page, 'No data');
   assert.equal(await text(page, '#banner'), 'Waiting for udp://0.0.0.0:9763');
+  assert.equal(await page.locator('#points').isVisible(), true, 'the page has had a person');
   await saveScreenshot(page, 'no_data_desktop');
   site.say('live');
   await statusIs(page, 'Live');
   assert.equal(await page.locator('#banner').isVisible(), false);
   await seePixels(page, 'red', isRed, 300);
   assert.deepEqual(problems, []);
+  await close();
+});
+
+test('the symbols of people are listed only on a page that has had a person', async () => {
+  const { page, problems, close } = await openLive();
+  await page.waitForFunction(() => /compression/.test(document.getElementById('compression').textContent), null, LONG);
+  assert.deepEqual(await page.locator('#points dd:visible').allTextContents(),
+    ['Centre of mass', 'Centre of pressure', 'Margin of stability 8.3 cm', 'Ground reaction force', 'L5/S1 compression 2.15 kN']);
+  site.say('people 0');
+  await page.waitForFunction(() => document.querySelectorAll('.person').length === 0, null, LONG);
+  const robots = await openPage(site.url);
+  await statusIs(robots.page, 'Live');
+  await robots.page.waitForFunction(() => document.getElementById('sample').textContent !== '–', null, LONG);
+  assert.equal(await robots.page.locator('#points').isVisible(), false);
+  assert.equal(await page.locator('#points').isVisible(), true);
+  site.say('people 1');
+  await robots.page.locator('#points').waitFor({ state: 'visible', ...LONG });
+  assert.deepEqual([...problems, ...robots.problems], []);
+  await robots.close();
   await close();
 });
 
