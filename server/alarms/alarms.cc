@@ -117,17 +117,29 @@ void Alarms::Meet(const PersonState& person) {
   known->second.name = person.name;
   if (!is_new && known->second.stamp_nanos == person.sample.stamp_nanos) return;
   known->second.stamp_nanos = person.sample.stamp_nanos;
+  if (!is_new) known->second.period_nanos = newest_.made_nanos - known->second.seen_nanos;
   known->second.seen_nanos = newest_.made_nanos;
 }
 
+bool Alarms::IsSilent(int character) const {
+  constexpr std::int64_t kShortest = 250'000'000, kLongest = 1'000'000'000;
+  const auto known = people_.find(character);
+  if (known == people_.end()) return false;
+  const Person& person = known->second;
+  return newest_.made_nanos - person.seen_nanos >
+         std::clamp(2 * person.period_nanos, kShortest, kLongest);
+}
+
 void Alarms::LookAtPerson(const SceneState& state, const PersonState& person, Changes& changes) {
+  const bool is_silent = IsSilent(person.character);
   for (std::size_t place = 0; place < rules_.size(); ++place) {
     const Rule& rule = rules_[place];
     if (!IsReadOfStates(rule)) continue;
     const auto watched = watched_.find({place, person.character});
     const Alarm* const alarm = watched == watched_.end() ? nullptr : Find(watched->second.alarm);
     const auto joint = alarm == nullptr ? std::nullopt : alarm->joint;
-    Look({place, person.character}, ReadingOf(rule, state, person, joint), newest_, changes);
+    const Reading reading = is_silent ? Reading{} : ReadingOf(rule, state, person, joint);
+    Look({place, person.character}, reading, newest_, changes);
   }
 }
 

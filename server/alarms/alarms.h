@@ -80,8 +80,9 @@ class Alarms {
  private:
   struct Person {
     std::string name;
-    std::int64_t stamp_nanos = 0;  // of the newest sample
-    std::int64_t seen_nanos = 0;   // made_nanos of the state that brought it
+    std::int64_t stamp_nanos = 0;   // of the newest sample
+    std::int64_t seen_nanos = 0;    // made_nanos of the state that brought it
+    std::int64_t period_nanos = 0;  // between that state and the one with the sample before
   };
   using Key = std::pair<std::size_t, int>;  // place of the rule; character, or the whole stream
   struct Watched {
@@ -93,6 +94,8 @@ class Alarms {
 
   // With mutex_ held:
   void Meet(const PersonState& person);
+  /// Others make states while this person sends nothing: what the last sample says is not now.
+  bool IsSilent(int character) const;
   void LookAtPerson(const SceneState& state, const PersonState& person, Changes& changes);
   void LookAtSilence(const Moment& now, Changes& changes);
   void EndLoadsOfAbsent(const SceneState& state, Changes& changes);

@@ -71,7 +71,7 @@ class AlarmsTest : public ::testing::Test {
   std::vector<std::string> events_;
   std::array<double, 2> class_limits_ = kDefaultClassLimits;
   std::uint64_t number_ = 0;
-  std::int64_t now_nanos_ = 5'000'000'000;
+  std::int64_t now_nanos_ = 5'000'000'000, ben_nanos_ = 0;
 };
 
 constexpr char kRatioRule[] =
@@ -103,6 +103,28 @@ TEST_F(AlarmsTest, EachPersonHasAlarmsOfTheirOwn) {
   Feed({MakePerson(0, {0.7}), MakePerson(1, {0.9})}, 6);
   EXPECT_THAT(events_, ElementsAre("load of Anna: began", "load of Ben: began"));
   EXPECT_EQ(alarms_->shown().at(0).person, "Ben") << "newest first";
+}
+
+TEST_F(AlarmsTest, OfAPersonWhoSendsNothingTheLastValueDoesNotGoOn) {
+  Start("rules:\n  - {name: load, value: ratio, above: 0.6, for: 1}\n");
+  const auto feed = [this](double seconds, bool ben_sends) {
+    for (double at = 0; at < seconds; at += 0.1) {
+      SceneState state;
+      state.number = ++number_;
+      state.made_nanos = state.stamp_nanos = now_nanos_ += 100'000'000;
+      state.liveness = Liveness::kLive;
+      state.people = {MakePerson(0, {0.2}), MakePerson(1, {0.9})};
+      if (ben_sends) ben_nanos_ = state.stamp_nanos;
+      state.people[0].sample.stamp_nanos = state.stamp_nanos;
+      state.people[1].sample.stamp_nanos = ben_nanos_;
+      alarms_->OnState(state);
+    }
+  };
+  feed(0.5, true);
+  feed(5, false);
+  EXPECT_THAT(events_, ElementsAre("lost of Ben: began")) << "Ben's load of then is not now";
+  feed(2, true);
+  EXPECT_EQ(events_.back(), "load of Ben: began");
 }
 
 TEST_F(AlarmsTest, UnknownNeitherBeginsNorEnds) {
