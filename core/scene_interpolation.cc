@@ -58,6 +58,22 @@ void MoveTowards(PersonState& person, const PersonState& after, double t) {
 
 }  // namespace
 
+// Each person's clock may be another one, so it is that of the person whose sample `before` has.
+std::int64_t TimeCodeBetween(const SceneState& before, const SceneState& after, double t) {
+  for (const PersonState& person : before.people) {
+    const BodySample& sample = person.sample;
+    const bool is_newest =
+        sample.counter == before.counter && sample.time_code_millis == before.time_code_millis;
+    const auto match =
+        std::find_if(after.people.begin(), after.people.end(),
+                     [&](const PersonState& p) { return p.character == person.character; });
+    if (!is_newest || match == after.people.end()) continue;
+    return std::llround((1 - t) * static_cast<double>(sample.time_code_millis) +
+                        t * static_cast<double>(match->sample.time_code_millis));
+  }
+  return before.time_code_millis;
+}
+
 SceneState Interpolate(const SceneState& before, const SceneState& after,
                        std::int64_t stamp_nanos) {
   if (stamp_nanos <= before.stamp_nanos || after.stamp_nanos <= before.stamp_nanos) return before;
@@ -66,8 +82,7 @@ SceneState Interpolate(const SceneState& before, const SceneState& after,
                    static_cast<double>(after.stamp_nanos - before.stamp_nanos);
   SceneState scene = before;
   scene.stamp_nanos = stamp_nanos;
-  scene.time_code_millis = std::llround((1 - t) * static_cast<double>(before.time_code_millis) +
-                                        t * static_cast<double>(after.time_code_millis));
+  scene.time_code_millis = TimeCodeBetween(before, after, t);
   for (PersonState& person : scene.people) {
     const auto match =
         std::find_if(after.people.begin(), after.people.end(),

@@ -10,6 +10,7 @@ SceneState SceneAt(std::int64_t stamp_nanos, double x, LoadClass load_class) {
   scene.stamp_nanos = stamp_nanos;
   scene.time_code_millis = stamp_nanos / 1'000'000;
   PersonState person;
+  person.sample.time_code_millis = scene.time_code_millis;
   for (urdf::Pose& link : person.links) link.position.x() = x;
   person.com = Eigen::Vector3d(x, 0, 1);
   JointLoad load;
@@ -31,6 +32,28 @@ TEST(SceneInterpolation, InterpolatesPosesAndKeepsDiscreteValues) {
   EXPECT_DOUBLE_EQ(person.com->x(), 0.25);
   EXPECT_DOUBLE_EQ(person.loads.at(0).position.x(), 0.25) << "a sphere stays at its joint";
   EXPECT_EQ(person.loads.at(0).load_class, LoadClass::kLow);
+}
+
+// Two suits have clocks of their own, and the state that of whoever's sample is the newest.
+TEST(SceneInterpolation, HasTheTimeCodeOfOnePersonAndNoneBetweenTwoClocks) {
+  constexpr std::int64_t kOther = 5000;  // ms, of the second suit ahead of the first
+  const auto scene_at = [](std::int64_t millis, int newest) {
+    SceneState scene = SceneAt(millis * 1'000'000, 0, LoadClass::kLow);
+    scene.people.push_back(scene.people[0]);
+    scene.people[1].character = 1;
+    scene.people[1].sample.time_code_millis = kOther + millis - (newest == 1 ? 0 : 5);
+    scene.people[0].sample.time_code_millis = millis - (newest == 0 ? 0 : 5);
+    for (PersonState& person : scene.people) {
+      person.sample.counter = static_cast<std::uint32_t>(person.sample.time_code_millis);
+    }
+    const BodySample& sample = scene.people[static_cast<std::size_t>(newest)].sample;
+    scene.counter = sample.counter;
+    scene.time_code_millis = sample.time_code_millis;
+    return scene;
+  };
+  EXPECT_EQ(Interpolate(scene_at(100, 0), scene_at(110, 1), 105'000'000).time_code_millis, 103);
+  EXPECT_EQ(Interpolate(scene_at(110, 1), scene_at(120, 0), 115'000'000).time_code_millis,
+            kOther + 113);
 }
 
 TEST(SceneInterpolation, InterpolatesGlovesPropsAndObjectsToo) {

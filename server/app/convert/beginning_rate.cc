@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/near_whole.h"
 #include "core/system/clocks.h"
 #include "server/mvn/datagram.h"
 
@@ -29,10 +30,7 @@ double BeginningRate::rate_hz() const {
   const double frames = last_.counter > first_.counter
                             ? static_cast<double>(last_.counter - first_.counter) / counter_step()
                             : static_cast<double>(samples_ - 1);
-  const double rate = frames / secs;
-  const double whole = std::round(rate);
-  constexpr double kTremble = 0.005;
-  return whole >= 1 && std::abs(rate - whole) <= kTremble * whole ? whole : rate;
+  return NearWhole(frames / secs);
 }
 
 }  // namespace kinescope::app

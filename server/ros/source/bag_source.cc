@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/near_whole.h"
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/words.h"
@@ -25,6 +26,7 @@
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/motion_joiner.h"
 #include "server/ros/source/transform_people.h"
+#include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -57,7 +59,7 @@ struct Appearances {
   }
   double rate_hz() const {  // 0: unknown
     if (count < 2 || last_nanos <= first_nanos) return 0;
-    return static_cast<double>(count - 1) * 1e9 / static_cast<double>(last_nanos - first_nanos);
+    return NearWhole(static_cast<double>(count - 1) / Secs(last_nanos - first_nanos));
   }
 };
 
@@ -215,6 +217,7 @@ class BagSource : public Source {
   CommonFrame common_frame_;
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
+  SampleOrigin origin_;                            // of `links_`
   std::string world_;
   std::int64_t moment_nanos_ = 0;       // of the newest moment that was passed on; 0: none was
   std::int64_t late_moment_nanos_ = 0;  // of a bag without people: of one that came too soon
@@ -251,7 +254,9 @@ void BagSource::ReadNames() {
     if (Decode(message) != nullptr) continue;
     for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
       if (!people_.AddName(transform.child_frame_id)) continue;
-      appearances[WithoutSlash(transform.child_frame_id)].Add(now);
+      const std::int64_t header = ToNanos(transform.header.stamp);
+      appearances[WithoutSlash(transform.child_frame_id)].Add(IsOfRecordTime(header, now) ? header
+                                                                                          : now);
     }
   }
   people_.FindPeople();
@@ -332,6 +337,9 @@ std::string BagSource::WhyNobody(const BagMessages& all) const {
                        fmt::join(others, ", "), others.size() == 1 ? "that" : "one of these");
   } else if (!has_topic) {
     why += "; record it with `rosbag record /tf`";
+  }
+  if (!needs_person_ && surroundings_.HasTopics()) {
+    why += ". None of the topics that are named is in it, as one that can be shown";
   }
   if (!needs_person_ && !shown.empty()) {
     why += fmt::format(". What else is in it is shown if you name it: --marker_topics={}",
@@ -540,7 +548,7 @@ void BagSource::TakeLinkStates(const BagMessage& message) {
     return;
   }
   surroundings_.Update(message.recorded_nanos, world_, name_, watch_);
-  person->second.Take(link_states_, {message.recorded_nanos, 0}, counters_, watch_);
+  person->second.Take(link_states_, {message.recorded_nanos, 0}, origin_, counters_, watch_);
 }
 
 SourceCounters BagSource::counters() const {

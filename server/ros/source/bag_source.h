@@ -32,7 +32,8 @@ namespace kinescope::ros_bridge {
 /// - stamp = that of the header, if it is within a day of the time at which the bag recorded it and
 ///   later than the one before. From the first stamp that is not, the times of the bag are used. An
 ///   equal stamp is the same sample again: a `duplicate`. An earlier stamp is a `restart`.
-/// - counter = sample number, from 0; time code = time since the person's first sample. A bag has
+/// - counter = sample number, from 0, and time code = time since the first sample of anyone; who
+///   comes later goes on where the others are. A bag has
 ///   no CoM, and derivatives only with link_states (motion_joiner.h); the Character has a skeleton,
 ///   measured on the first sample, and again when the lengths change permanently
 ///   (skeleton_watch.h).

@@ -72,7 +72,7 @@ BagSurroundings::BagSurroundings(const GraphView& view)
     if (!topic.is_frame) continue;
     shows_frames_ = shows_frames_ || !topic.is_grid;
     if (topic.is_every_frame()) {
-      frames_.emplace(topic.style, kPlaceEveryNanos);
+      frames_.emplace_back(topic.style, kPlaceEveryNanos, static_cast<int>(frames_.size()));
       continue;
     }
     // A topic begins with a slash, this name does not.
@@ -276,7 +276,7 @@ void BagSurroundings::TakeJointStates(const BagMessage& message, SourceCounters&
 void BagSurroundings::AddTransforms(const tf2_msgs::TFMessage& message, const std::string& topic,
                                     bool is_static) {
   const bool is_used = has_markers_ || has_scenes_on_images_ || !robots_.empty() ||
-                       camera_frame_.is_wanted() || frames_ || is_static;
+                       camera_frame_.is_wanted() || !frames_.empty() || is_static;
   if (!is_used) return;
   for (const Refusal& refusal : tf_.Add(message, is_static)) Note(WithSlash(topic), refusal);
 }
@@ -323,7 +323,10 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     for (const auto& [name, frame] : tf_.frames()) take(frame);
     if (tf_.frames().count(world) == 0) take({world, "", 0});
   };
-  const bool has_new_frames = frames_ && frames_->Update(now_nanos, list, find_now);
+  bool has_new_frames = false;
+  for (ShownFrames& frames : frames_) {
+    has_new_frames = frames.Update(now_nanos, list, find_now) || has_new_frames;
+  }
   if (has_moved || has_new_markers || has_new_images || has_new_base || has_new_frames) {
     RecordedSurroundings all{
         Together(store_.markers(), frames_), {}, images_.images(), camera_frame_.pose()};
@@ -335,8 +338,8 @@ void BagSurroundings::Update(std::int64_t now_nanos, const std::string& world,
     spdlog::warn("bag '{}': {}", bag, text);
   };
   for (const WithoutPlace& lost : images_.TakeLost()) warn(lost.Text(tf_, world));
-  if (!frames_) return;
-  const std::string lost = frames_->TakeLost();
+  if (frames_.empty()) return;
+  const std::string lost = frames_.front().TakeLost();
   if (!lost.empty()) spdlog::warn("bag '{}': {}", bag, lost);
 }
 

@@ -48,15 +48,18 @@ class BagSurroundings {
   static constexpr char kOwnMarkers[] = "markers of Kinescope";
   /// Nothing that is shown has come.
   bool IsEmpty() const {
-    return store_.markers().empty() && robots_.empty() && images_.images().empty() && !frames_;
+    return store_.markers().empty() && robots_.empty() && images_.images().empty() &&
+           frames_.empty();
   }
 
   /// The frame of the first thing that is shown; "": there is none yet.
   std::string FirstFrame() const { return store_.FirstFrame(); }
   /// Whether WarnOfProblems() tells what is counted as `defect`.
   bool HasNamed(const std::string& defect) const { return named_.count(defect) > 0; }
-  /// Whether frames of TF are to be shown: all, or the axes of some.
-  bool ShowsFrames() const { return shows_frames_; }
+  /// Whether something of TF is to be shown: all frames, the axes of some, or robots.
+  bool ShowsFrames() const { return shows_frames_ || !robots_.empty(); }
+  /// Whether topics are named.
+  bool HasTopics() const { return !heard_.empty(); }
   /// The bag has something that is shown.
   void Expect() { has_markers_ = true; }
   /// Whether there is a marker, an image or a robot, with or without a place.
@@ -101,11 +104,11 @@ class BagSurroundings {
   void TakeCalibration(std::size_t number, const BagMessage& message, SourceCounters& counters);
   void TakeColors(std::size_t number, const BagMessage& message, SourceCounters& counters);
   void TakeJointStates(const BagMessage& message, SourceCounters& counters);
-  /// The number of a topic; nullopt, counted: there are too many. What is shown of one topic in
-  /// several ways has a number each.
   /// Counts what is not shown of a topic, and remembers why.
   void Reject(const BagMessage& message, const Refusal& refusal, SourceCounters& counters);
   void Note(const std::string& what, const Refusal& refusal);
+  /// The number of a topic; nullopt, counted: there are too many. What is shown of one topic in
+  /// several ways has a number each.
   std::optional<std::size_t> NumberOf(const std::string& topic, SourceCounters& counters);
   std::optional<std::size_t> NumberOf(std::size_t shown, SourceCounters& counters);
   /// What tells the messages of one shown topic from those of others, also of the same name.
@@ -126,7 +129,7 @@ class BagSurroundings {
   TopicMarkers shown_{[this](const std::string& joint) { return joints_.Find(joint); }};
   ImageBox images_;
   FollowedFrame camera_frame_;
-  std::optional<ShownFrames> frames_;
+  std::vector<ShownFrames> frames_;
   TfTree tf_;
   std::map<std::string, std::size_t> topics_;    // their numbers
   std::set<std::string> lost_frames_;            // that were warned of

@@ -233,7 +233,7 @@ class GraphSource : public Source {
       Shift(link_state_array_.header.stamp, shift);
       for (auto& state : link_state_array_.states) Shift(state.header.stamp, shift);
       return Take([&](SampleSink& sink) {
-        link_states_.Take(link_state_array_, now, counters_, sink);
+        link_states_.Take(link_state_array_, now, origin_, counters_, sink);
         OnPerson(event, stamp, now);
       });
     }
@@ -322,6 +322,7 @@ class GraphSource : public Source {
   TransformPeople people_;
   CommonFrame common_frame_;
   LinkStatesPerson link_states_;
+  SampleOrigin origin_;                                  // of `link_states_`
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
   xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory
   SourceCounters counters_;

@@ -14,7 +14,8 @@ std::string OwnerOfTopic(const std::string& topic) {
 }
 
 void LinkStatesPerson::Take(const xsens_mvn_ros_msgs::LinkStateArray& message,
-                            const Arrival& arrival, SourceCounters& counters, SampleSink& sink) {
+                            const Arrival& arrival, SampleOrigin& origin, SourceCounters& counters,
+                            SampleSink& sink) {
   LinkStatesBySegment states{};
   if (const char* defect = FindLinks(message, states)) {
     ++counters.rejected[defect];
@@ -33,7 +34,7 @@ void LinkStatesPerson::Take(const xsens_mvn_ros_msgs::LinkStateArray& message,
     transforms_.Add(transform);
   }
   const std::uint64_t steps_back = transforms_.steps_back();
-  if (transforms_.Finish(arrival.monotonic_nanos) == TransformPerson::Result::kDuplicate) {
+  if (transforms_.Finish(arrival.monotonic_nanos, origin) == TransformPerson::Result::kDuplicate) {
     ++counters.duplicates;
     return;
   }

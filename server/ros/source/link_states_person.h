@@ -28,7 +28,7 @@ class LinkStatesPerson {
   /// pelvis. Twists and accelerations that are zero for all links count as not measured. Rejected
   /// messages are counted.
   void Take(const xsens_mvn_ros_msgs::LinkStateArray& message, const Arrival& arrival,
-            SourceCounters& counters, SampleSink& sink);
+            SampleOrigin& origin, SourceCounters& counters, SampleSink& sink);
 
  private:
   const std::string name_;

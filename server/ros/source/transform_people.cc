@@ -130,7 +130,7 @@ void TransformPeople::Give(int index, const Arrival& arrival, SourceCounters& co
                            SampleSink& sink) {
   Person& person = people_[static_cast<std::size_t>(index)];
   const std::uint64_t steps_back = person.transforms.steps_back();
-  const TransformPerson::Result result = person.transforms.Finish(arrival.monotonic_nanos);
+  const TransformPerson::Result result = person.transforms.Finish(arrival.monotonic_nanos, origin_);
   counters.restarts += person.transforms.steps_back() - steps_back;
   switch (result) {
     case TransformPerson::Result::kNothing: return;

@@ -79,7 +79,8 @@ class TransformPeople {
   PeopleFrames frames_;
   // When the last and the first new name appeared, if people were not searched since.
   std::optional<std::int64_t> new_name_at_, first_new_name_at_;
-  std::vector<Person> people_;                                     // by index of frames_.people()
+  std::vector<Person> people_;  // by index of frames_.people()
+  SampleOrigin origin_;
   std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child
   std::vector<PeopleFrames::Place> places_;        // of the transforms in the message
   std::map<int, TransformPerson::Slots> touched_;  // by person: their transforms in the message

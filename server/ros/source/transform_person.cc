@@ -29,11 +29,11 @@ constexpr std::array<ArmBone, 4> kArmBones = {{{urdf::kRightUpperArm, -1},
                                                {urdf::kLeftUpperArm, 1},
                                                {urdf::kLeftForeArm, 1}}};
 
-bool AreOfOneTime(std::int64_t header_nanos, std::int64_t record_nanos) {
+}  // namespace
+
+bool IsOfRecordTime(std::int64_t header_nanos, std::int64_t record_nanos) {
   return std::abs(header_nanos - record_nanos) < NodeClock::kFarNanos;
 }
-
-}  // namespace
 
 bool TransformPerson::HasSegments() const {
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
@@ -74,7 +74,7 @@ const FrameTransform* TransformPerson::Find(int slot) const {
   return is_static_.test(At(slot)) ? &static_[At(slot)] : nullptr;
 }
 
-TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
+TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos, SampleOrigin& origin) {
   if (!HasSegments()) return Result::kNothing;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     if (Find(segment) == nullptr) return Result::kNothing;
@@ -86,7 +86,7 @@ TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
   const std::int64_t header_nanos = StampInHeaders();
   present_.reset();
   if (chained == Result::kNoTree) return chained;
-  if (!SetStamp(header_nanos, first_record_nanos_)) return Result::kDuplicate;
+  if (!SetStamp(header_nanos, first_record_nanos_, origin)) return Result::kDuplicate;
   SetSegments(poses);
   root_ = *root;
   sample_.arrival_nanos = arrival_nanos;
@@ -120,24 +120,28 @@ std::int64_t TransformPerson::StampInHeaders() const {
   return 0;
 }
 
-bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
+bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos,
+                               SampleOrigin& origin) {
   if (record_nanos < last_record_nanos_) StartOver(header_nanos, record_nanos);
   last_record_nanos_ = record_nanos;
   if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
-  headers_are_right_ = headers_are_right_ && AreOfOneTime(header_nanos, record_nanos) &&
+  headers_are_right_ = headers_are_right_ && IsOfRecordTime(header_nanos, record_nanos) &&
                        (samples_ == 0 || header_nanos > last_header_nanos_);
   if (samples_ > 0 && header_nanos < last_header_nanos_) ++steps_back_;
   last_header_nanos_ = header_nanos;
   std::int64_t stamp = headers_are_right_ ? header_nanos : record_nanos;
   if (samples_ == 0) {
-    first_stamp_ = stamp;
+    const bool is_later = origin.stamp_nanos && *origin.stamp_nanos <= stamp;
+    first_stamp_ = is_later ? *origin.stamp_nanos : stamp;
+    first_counter_ = is_later ? origin.counter : 0;
   } else {
     // Equal record times, and the change from header to record times, must not turn time back.
     stamp = std::max(stamp, sample_.stamp_nanos + kMinStepNanos);
   }
-  sample_.counter = samples_;
+  sample_.counter = first_counter_ + samples_;
   sample_.stamp_nanos = stamp;
   sample_.time_code_millis = (stamp - first_stamp_ + kNanosPerMilli / 2) / kNanosPerMilli;
+  origin = {first_stamp_, sample_.counter};
   return true;
 }
 
@@ -147,7 +151,7 @@ void TransformPerson::StartOver(std::int64_t header_nanos, std::int64_t record_n
   headers_are_right_ = true;
   last_header_nanos_ = header_nanos - 1;
   // Headers that are of another time are not taken.
-  const std::int64_t earlier = AreOfOneTime(header_nanos, record_nanos)
+  const std::int64_t earlier = IsOfRecordTime(header_nanos, record_nanos)
                                    ? std::min(header_nanos, record_nanos)
                                    : record_nanos;
   const std::int64_t before = earlier - kMinStepNanos;

@@ -24,6 +24,16 @@ struct FrameTransform {
   std::int64_t record_nanos = 0;  // time at which the bag recorded or this node received it
 };
 
+/// Whether the stamp of a header may be that of a message that was recorded, or received, then.
+[[nodiscard]] bool IsOfRecordTime(std::int64_t header_nanos, std::int64_t record_nanos);
+
+/// What the samples of all people of a source are counted from: who comes later goes on where the
+/// others are.
+struct SampleOrigin {
+  std::optional<std::int64_t> stamp_nanos;  // of time code 0; none: no sample yet
+  std::uint32_t counter = 0;                // of the newest sample
+};
+
 class TransformPerson {
  public:
   enum class Result {
@@ -46,7 +56,7 @@ class TransformPerson {
   /// Adds a frame of /tf_static: part of every later set that does not contain it itself.
   void AddStatic(const FrameTransform& transform);
   /// Call it after all transforms of a message were added. `arrival_nanos`: as in BodySample.
-  [[nodiscard]] Result Finish(std::int64_t arrival_nanos = 0);
+  [[nodiscard]] Result Finish(std::int64_t arrival_nanos, SampleOrigin& origin);
   /// End of the input: true if a set that lacks segments is left.
   [[nodiscard]] bool End() const { return HasSegments(); }
 
@@ -66,7 +76,8 @@ class TransformPerson {
   void FindArmFrames(const Poses& poses);
   std::int64_t StampInHeaders() const;
   /// False if the set is a repetition of the sample before.
-  [[nodiscard]] bool SetStamp(std::int64_t header_nanos, std::int64_t record_nanos);
+  [[nodiscard]] bool SetStamp(std::int64_t header_nanos, std::int64_t record_nanos,
+                              SampleOrigin& origin);
   void StartOver(std::int64_t header_nanos, std::int64_t record_nanos);
   void SetSegments(const Poses& poses);
 
@@ -80,7 +91,7 @@ class TransformPerson {
 
   BodySample sample_;  // the newest
   std::string root_;
-  std::uint32_t samples_ = 0;
+  std::uint32_t samples_ = 0, first_counter_ = 0;
   std::uint64_t steps_back_ = 0;
   std::int64_t first_stamp_ = 0;
   std::int64_t last_header_nanos_ = 0;

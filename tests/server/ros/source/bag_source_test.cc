@@ -365,6 +365,34 @@ TEST_F(BagTest, ReadsFramesOfThePersonFromTfStatic) {
   EXPECT_THAT(recorded.counters.ignored, IsEmpty());
 }
 
+// So that a picture's time code is that of the recording, whoever's sample is the newest.
+TEST_F(BagTest, CountsAPersonWhoAppearsLaterFromWhereTheOthersAre) {
+  const ReadPeople recorded = ReadBag(Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 200; ++n) {
+      const std::int64_t now = kBagStart + n * kBagPeriod;
+      out.write("/tf", RosTimeOf(now), TransformsOf(PersonAt(n, "anna")));
+      if (n >= 100) out.write("/tf", RosTimeOf(now), TransformsOf(PersonAt(n, "ben")));
+    }
+  }));
+  ASSERT_EQ(recorded.samples.size(), 300U);
+  for (const BodySample& sample : recorded.samples) {
+    const std::int64_t since = sample.stamp_nanos - kBagStart;
+    EXPECT_EQ(sample.time_code_millis, since / kNanosPerMilli);
+    EXPECT_NEAR(sample.counter, static_cast<double>(since / kBagPeriod), 1);
+  }
+}
+
+// A recorder hears the first messages together, some time after they were sent.
+TEST_F(BagTest, HasTheRateOfTheHeadersAndNotOfTheRecorder) {
+  const ReadPeople recorded = ReadBag(Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 100; ++n) {
+      out.write("/tf", RosTimeOf(kBagStart + std::max(n, 8) * kBagPeriod + n),
+                TransformsOf(PersonAt(n)));
+    }
+  }));
+  EXPECT_EQ(recorded.rate_hz, 100);
+}
+
 TEST_F(BagTest, FindsAPersonWhoAppearsLater) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 30; ++n) {

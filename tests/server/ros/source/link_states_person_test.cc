@@ -36,11 +36,13 @@ class LinkStatesPersonTest : public ::testing::Test {
     return message;
   }
   void Take(int n, const xsens_mvn_ros_msgs::LinkStateArray& message) {
-    person_.Take(message, {kLinksStart + n * kLinksPeriod + 1'000'000, 1 + n}, counters_, sink_);
+    person_.Take(message, {kLinksStart + n * kLinksPeriod + 1'000'000, 1 + n}, origin_, counters_,
+                 sink_);
   }
 
   LinkStatesPerson person_{"xsens"};
   SourceCounters counters_;
+  SampleOrigin origin_;
   kinescope::testing::RecordingSink sink_;
 };
 
