@@ -26,6 +26,7 @@ struct PointScale {
   // x, y, z: of its place in the scene; else the name of a field; "": intensity, or what the
   // message measures.
   std::string by;
+  bool is_in_message = false;      // x, y, z: of its place in the frame of its message
   std::optional<double> from, to;  // where the colours begin and end; unset: of the points
   std::optional<Rgb> low, high;    // unset, both: a rainbow from red to magenta
   bool is_inverted = false;        // the rainbow
@@ -106,6 +107,9 @@ struct EarlierMessages {
   double step_m = 0, turn_rad = 0;
 };
 
+/// RViz's colour schemes of a map.
+enum class MapColors { kMap, kCostmap, kRaw };
+
 inline constexpr std::size_t kUsualCloudPoints = 20'000, kMostCloudPoints = 100'000;
 
 /// How a message that is shown as a marker looks, where it is not as by default
@@ -127,7 +131,7 @@ struct ShownStyle {
   // Of points, if they are few: spheres or cubes, not squares that face the viewer.
   bool has_spheres = false, has_cubes = false;
   std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
-  bool is_costmap = false;                      // of a map: in colours of costs
+  MapColors map_colors = MapColors::kMap;
   bool has_updates = false;  // of a map: with those that come on "<topic>_updates"
   bool is_behind = false;    // of a map: below all others
   bool has_array = false;    // markers of "<topic>_array", too

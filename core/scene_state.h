@@ -58,6 +58,7 @@ struct JointLoad {
 
 /// The person as a mechanism. Shared by all states until the scale data change.
 struct PersonModel {
+  int index = 0;  // in the order in which people came; 0: the first, also when they are away
   urdf::HumanModel human;
   urdf::BodyDescription description;
   bool lengths_are_measured = false;  // from the source; else: the default body of a given height

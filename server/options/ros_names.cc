@@ -24,11 +24,16 @@ bool IsName(const std::string& text) {
   });
 }
 
-// "by=z", "from=0", "to=2.5", "low=#000000", "high=#ffffff", "rainbow=inverted" of points.
+// "by=z", "axis=message", "from=0", "to=2.5", "low=#000000", "high=#ffffff", "rainbow=inverted" of
+// points.
 bool TakeScale(const std::string& key, const std::string& text, PointScale& scale) {
   if (key == "by") {
     scale.by = text;
     return IsFieldName(text);
+  }
+  if (key == "axis") {
+    scale.is_in_message = text == "message";
+    return scale.is_in_message || text == "scene";
   }
   if (key == "rainbow") {
     scale.is_inverted = text == "inverted";
@@ -229,8 +234,10 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   }
   if (key == "shape") return TakeShape(text, style);
   if (key == "scheme") {
-    style.is_costmap = text == "costmap";
-    return style.is_costmap || text == "map";
+    style.map_colors = text == "costmap" ? MapColors::kCostmap
+                       : text == "raw"   ? MapColors::kRaw
+                                         : MapColors::kMap;
+    return text == "map" || style.map_colors != MapColors::kMap;
   }
   if (key == "updates" || key == "behind") {
     (key == "updates" ? style.has_updates : style.is_behind) = text == "on";
@@ -265,7 +272,7 @@ bool TakeStyle(const std::string& item, ShownStyle& style) {
   }
   if (is_one_of({"cells", "layers", "plane", "at"})) return TakeGrid(key, text, style.grid);
   if (is_one_of({"keep", "decay", "step", "turn"})) return TakeEarlier(key, text, style.earlier);
-  if (is_one_of({"by", "from", "to", "low", "high", "rainbow"})) {
+  if (is_one_of({"by", "axis", "from", "to", "low", "high", "rainbow"})) {
     if (!style.scale) style.scale = PointScale{};
     return TakeScale(key, text, *style.scale);
   }
@@ -345,9 +352,6 @@ void ShownTopicsValue::Parse(const std::string& text) {
   for (const std::string& item : options::SplitItems(text)) {
     std::optional<ShownTopic> topic = ParseTopic(item);
     if (!topic || topics.size() == kMostShownTopics) RefuseText();
-    const bool has_frames = std::any_of(
-        topics.begin(), topics.end(), [](const ShownTopic& each) { return each.is_every_frame(); });
-    if (topic->is_every_frame() && has_frames) RefuseText();
     topics.push_back(std::move(*topic));
   }
   value_ = std::move(topics);

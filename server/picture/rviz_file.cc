@@ -120,7 +120,12 @@ class RvizReader {
       }
       const std::string kind = TextOf(display, "Class", "");
       RefuseOther(display, kind);
-      const bool is_shown = is_on && BoolOf(display, "Enabled", BoolOf(display, "Value", false));
+      if (is_on && kind.empty()) {
+        Remark(display, fmt::format("a display without a Class {} is not drawn",
+                                    Quoted(TextOf(display, "Name", ""))));
+      }
+      const bool is_shown =
+          is_on && !kind.empty() && BoolOf(display, "Enabled", BoolOf(display, "Value", false));
       if (kind == "rviz/Group") {
         ReadDisplays(Member(display, "Displays"), is_shown);
       } else if (is_shown) {
@@ -147,9 +152,7 @@ class RvizReader {
   }
 
   void ReadDisplay(const YAML::Node& display, const std::string& kind) {
-    const std::string called =
-        fmt::format("{} {}", kind.empty() ? "a display without a Class" : kind,
-                    Quoted(TextOf(display, "Name", "")));
+    const std::string called = fmt::format("{} {}", kind, Quoted(TextOf(display, "Name", "")));
     NameBadColors(display, called);
     if (rviz::IsFrameDisplay(kind)) {
       ReadFrameDisplay(display, kind, called);

@@ -79,7 +79,7 @@ void ApplyRobots(const std::string& file, const std::vector<RvizPicture::Robot>&
 // Of a topic that is shown in two ways, both are.
 std::string NameOf(const RvizPicture::Topic& topic) {
   const std::string name = StartsWith(topic.name, "/") ? topic.name.substr(1) : topic.name;
-  return topic.is_every_frame ? name : name + topic.style;
+  return name + topic.style;
 }
 
 // What is drawn in its place, if anything, where the source has no topics.

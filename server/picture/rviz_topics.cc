@@ -202,9 +202,9 @@ class StyleReader {
       AddAxisScale();
     } else if (transformer == "Intensity") {
       AddIntensityScale();
-    } else if (!transformer.empty() && transformer != "RGB8") {
+    } else if (!transformer.empty() && transformer != "RGB8" && transformer != "RGBF32") {
       Remark("Color Transformer '" + transformer +
-             "' is not taken; its points have the colours of the message");
+             "' is not taken; its points have the colours of the message, or are white");
     }
   }
 
@@ -216,19 +216,16 @@ class StyleReader {
     const bool are_of_points =
         is_map ? BoolOf(bounds, "Value", true) : BoolOf(display_, "Autocompute Value Bounds", true);
     if (!are_of_points) AddBounds(is_map ? bounds : display_, "Min Value", -10, "Max Value", 10);
-    if (!BoolOf(display_, "Use Fixed Frame", true)) {
-      Remark("Use Fixed Frame 'false': the axis is that of the scene");
-    }
+    if (!BoolOf(display_, "Use Fixed Frame", true)) Add("axis=message");
   }
 
   void AddIntensityScale() {
     const std::string channel = TextOf(display_, "Channel Name", "intensity");
     if (!IsFieldName(channel)) {
       Remark("Channel Name '" + channel + "' cannot be taken; its points are white");
-    } else if (channel == "x" || channel == "y" || channel == "z") {
-      Remark("Channel Name '" + channel + "': the axis is that of the scene");
     }
     Add("by=" + (IsFieldName(channel) ? channel : "_"));
+    if (channel == "x" || channel == "y" || channel == "z") Add("axis=message");
     if (!BoolOf(display_, "Autocompute Intensity Bounds", true)) {
       AddBounds(display_, "Min Intensity", 0, "Max Intensity", 4096);
     }
@@ -383,8 +380,8 @@ class StyleReader {
 
   void AddMap() {
     const std::string scheme = TextOf(display_, "Color Scheme", "map");
-    if (scheme == "costmap") {
-      Add("scheme=costmap");
+    if (scheme == "costmap" || scheme == "raw") {
+      Add("scheme=" + scheme);
     } else if (scheme != "map") {
       Remark("Color Scheme '" + scheme + "' is drawn as 'map'");
     }

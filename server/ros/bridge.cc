@@ -408,8 +408,10 @@ class Bridge : public RosBridge {
       } else {
         FillTransforms(person, outlet.names, frame, shape_, outlet.transforms);
       }
-      const bool is_first = &person == &state.people.front();
-      if (is_first) AddObjects(state, outlet.names, frame, outlet.transforms);
+      // With any one person's, under the name of the first, who may be away.
+      if (&person == &state.people.front()) {
+        AddObjects(state, NamesOfFirst(outlet), frame, outlet.transforms);
+      }
       AddSensors(person, outlet.names, heard, frame, outlet.transforms);
       topics.tf.publish(outlet.transforms);
     }
@@ -440,6 +442,12 @@ class Bridge : public RosBridge {
                 shape_ == TfShape::kBase ? MarkerFrames::kReference : MarkerFrames::kLinks,
                 state.floor_z, outlet.markers, MarkerLifetime(outlet.period_secs));
     topics.markers.publish(outlet.markers);
+  }
+
+  const PersonNames& NamesOfFirst(const Outlet& otherwise) const {
+    const auto first = std::find_if(outlets_.begin(), outlets_.end(),
+                                    [](const auto& each) { return each.second.model->index == 0; });
+    return first == outlets_.end() ? otherwise.names : first->second.names;
   }
 
   bool FillJointStates(const PersonState& person, Outlet& outlet) const {
@@ -490,7 +498,7 @@ class Bridge : public RosBridge {
   // Used by the publishing thread only.
   std::map<int, Outlet> outlets_;  // by character
   std::optional<StreamStatus>
-      status_;  // of the first person's samples; from the first diagnosis on
+      status_;  // of the samples of one person at a time; from the first diagnosis on
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
   std::int64_t shown_stamp_nanos_ = 0;  // of the newest live state, in the graph's time

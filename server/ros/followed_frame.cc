@@ -1,6 +1,21 @@
 #include "server/ros/followed_frame.h"
 
+#include <spdlog/spdlog.h>
+
+#include "core/system/clocks.h"
+
 namespace kinescope::ros_bridge {
+
+void FollowedFrame::TellOfAxes(bool is_there, std::int64_t now_nanos) {
+  constexpr std::int64_t kPatience = 5 * kNanosPerSecond;
+  constexpr char kFrameOfRviz[] = "map";  // in configurations, whether or not there is one
+  if (is_there || has_told_ || frames_.axes == kFrameOfRviz) return without_axes_nanos_.reset();
+  if (!without_axes_nanos_ || now_nanos < *without_axes_nanos_) without_axes_nanos_ = now_nanos;
+  if (now_nanos - *without_axes_nanos_ < kPatience) return;
+  has_told_ = true;
+  spdlog::warn("no frame '{}' has come (--camera_tf): the camera has the axes of the scene",
+               frames_.axes);
+}
 
 bool FollowedFrame::Update(std::int64_t now_nanos, const FindFrame& find) {
   constexpr std::int64_t kEveryNanos = 16'000'000;
@@ -10,11 +25,14 @@ bool FollowedFrame::Update(std::int64_t now_nanos, const FindFrame& find) {
     return false;
   }
   looked_nanos_ = now_nanos;
+  std::optional<urdf::Pose> axes;
+  if (!frames_.axes.empty()) {
+    axes = find(frames_.axes);
+    TellOfAxes(axes.has_value(), now_nanos);
+  }
   std::optional<urdf::Pose> found = find(frames_.at);
   if (!found) return false;
-  if (!frames_.axes.empty()) {
-    found->orientation = find(frames_.axes).value_or(urdf::Pose{}).orientation;
-  }
+  if (!frames_.axes.empty()) found->orientation = axes.value_or(urdf::Pose{}).orientation;
   const bool is_same = pose_ && pose_->position == found->position &&
                        pose_->orientation.coeffs() == found->orientation.coeffs();
   pose_ = found;

@@ -27,9 +27,14 @@ class FollowedFrame {
   const std::optional<urdf::Pose>& pose() const { return pose_; }
 
  private:
+  /// Once, if the frame whose axes the camera has does not come.
+  void TellOfAxes(bool is_there, std::int64_t now_nanos);
+
   const CameraFrames frames_;
   std::optional<urdf::Pose> pose_;
   std::optional<std::int64_t> looked_nanos_;
+  std::optional<std::int64_t> without_axes_nanos_;  // since then
+  bool has_told_ = false;
 };
 
 }  // namespace kinescope::ros_bridge

@@ -109,13 +109,15 @@ std::optional<Refusal> InteractiveMarkers::Put(Server& server, InteractiveMarker
   shown.header = message.header;
   shown.first_pose = message.pose;
   const Eigen::Isometry3d place = PlaceOf(message.pose);
-  const auto add = [&](Marker marker, bool is_fixed) {
+  const auto add = [&](Marker marker, bool is_fixed, bool has_axes_of_frame = false) {
     marker.ns.clear();
     marker.id = TakeId();
     marker.action = Marker::ADD;
     marker.lifetime = {};
     if (marker.header.frame_id.empty()) {  // its pose is that in the interactive marker
-      const Eigen::Isometry3d in_frame = place * PlaceOf(marker.pose);
+      const Eigen::Isometry3d local = PlaceOf(marker.pose);
+      const Eigen::Isometry3d in_frame =
+          has_axes_of_frame ? Eigen::Translation3d(place.translation()) * local : place * local;
       marker.pose = PoseAt(in_frame.translation(), Eigen::Quaterniond(in_frame.linear()));
       marker.header = message.header;
     }
@@ -126,10 +128,11 @@ std::optional<Refusal> InteractiveMarkers::Put(Server& server, InteractiveMarker
   for (const InteractiveMarkerControl& control : message.controls) {
     if (control.always_visible == 0U && !style.has_handles) continue;
     // What faces the viewer in RViz keeps its orientation, unless it turns with the marker.
-    const bool is_fixed = control.orientation_mode == InteractiveMarkerControl::FIXED ||
-                          (control.orientation_mode == InteractiveMarkerControl::VIEW_FACING &&
-                           control.independent_marker_orientation == 0U);
-    for (const Marker& marker : control.markers) add(marker, is_fixed);
+    const bool has_axes_of_frame = control.orientation_mode == InteractiveMarkerControl::FIXED;
+    const bool is_fixed =
+        has_axes_of_frame || (control.orientation_mode == InteractiveMarkerControl::VIEW_FACING &&
+                              control.independent_marker_orientation == 0U);
+    for (const Marker& marker : control.markers) add(marker, is_fixed, has_axes_of_frame);
   }
   if (!message.description.empty() && style.frames.has_names) {
     for (const Marker& title : interactive_markers::makeTitle(message).markers) add(title, false);

@@ -33,9 +33,9 @@ void SizeInPixels(SceneMarker& marker, double size_px) {
   marker.is_in_pixels = true;
 }
 
-// @pre AxisOf(style)
+// @pre SceneAxisOf(style)
 void ColourByPlace(SceneMarker& points, const ShownStyle& style) {
-  const int axis = AxisOf(style).value_or(0);
+  const int axis = SceneAxisOf(style).value_or(0);
   std::vector<double> values;
   values.reserve(points.points.size());
   for (const Eigen::Vector3d& point : points.points) {
@@ -135,7 +135,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const MarkerType type = entry.shape->type;
   const bool is_cloud = type == MarkerType::kPoints || type == MarkerType::kSphereList ||
                         type == MarkerType::kCubeList;
-  if (is_cloud && AxisOf(style)) entry.axis_style = style;
+  if (is_cloud && SceneAxisOf(style)) entry.axis_style = style;
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;
   entry.is_new = has_new_ = true;
@@ -145,10 +145,13 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const std::size_t sent = HasPoints(type) ? message.points.size() : 0;
   const std::size_t left = entry.shape->points.size();
   if (left == sent) return std::nullopt;
-  Refusal some = RefusalOf("some of its points", message,
-                           fmt::format("points that are not finite, or are beyond 100 km, are left "
-                                       "out: {} of {}",
-                                       sent - left, sent));
+  const std::string what =
+      sent > kMaxMarkerPoints
+          ? fmt::format("{} of {} points are drawn: no more than {} of one marker", left, sent,
+                        kMaxMarkerPoints)
+          : fmt::format("points that are not finite, or are beyond 100 km, are left out: {} of {}",
+                        sent - left, sent);
+  Refusal some = RefusalOf("some of its points", message, what);
   some.is_partial = true;
   return some;
 }
@@ -328,7 +331,9 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
 void MarkerStore::AddOfFrame(std::size_t topic, const ShownTopic& frame) {
   const Marker lines =
       frame.is_grid ? GridMarker(frame.name, frame.style) : AxesMarker(frame.name, frame.style);
-  if (const auto refusal = Apply(topic, lines, 0)) {
+  MarkerLook ours;
+  ours.is_converted = true;
+  if (const auto refusal = Apply(topic, lines, 0, {}, ours)) {
     throw UsageError("--marker_topics: " + refusal->text);
   }
   Entry& entry = entries_.at(Key{topic, lines.ns, lines.id});

@@ -25,10 +25,6 @@ Eigen::Quaterniond FromMarker(const geometry_msgs::Quaternion& q) {
 
 // Checked before anything is copied.
 std::optional<std::string> FindExcess(const Marker& message) {
-  if (message.points.size() > kMaxMarkerPoints || message.colors.size() > kMaxMarkerPoints) {
-    return fmt::format("{} points and {} colors: expected at most {}", message.points.size(),
-                       message.colors.size(), kMaxMarkerPoints);
-  }
   if (message.ns.size() > kLongestMarkerName ||
       message.header.frame_id.size() > kLongestMarkerName) {
     return fmt::format("name of the namespace or frame longer than {} bytes", kLongestMarkerName);
@@ -44,6 +40,37 @@ std::optional<std::string> FindExcess(const Marker& message) {
 // As many points belong together.
 std::size_t PointsOfOne(MarkerType type) {
   return type == MarkerType::kLineList ? 2 : type == MarkerType::kTriangleList ? 3 : 1;
+}
+
+// Of more than kMaxMarkerPoints, those of as many lines, triangles, cubes, ... with equal distances
+// in the message. @return false: the colours of so many cannot be told from their number
+bool CopyPoints(const Marker& message, SceneMarker& marker) {
+  const std::size_t together = PointsOfOne(marker.type), count = message.points.size();
+  const bool is_arrow = marker.type == MarkerType::kArrow;
+  // As in RViz, triangles may have one color each.
+  const bool has_face_colors =
+      marker.type == MarkerType::kTriangleList && 3 * message.colors.size() == count;
+  const bool has_colors = message.colors.size() == count;
+  if (count <= kMaxMarkerPoints && message.colors.size() <= kMaxMarkerPoints) {
+    for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
+    for (const auto& color : message.colors) {
+      if (is_arrow) break;
+      marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1, ColorOf(color));
+    }
+    return true;
+  }
+  const bool is_known = has_colors || has_face_colors || message.colors.empty();
+  if (is_arrow || !is_known || count % together != 0) return false;
+  const std::uint64_t all = count / together, kept = kMaxMarkerPoints / together;
+  for (std::uint64_t i = 0; i < kept; ++i) {
+    const auto one = static_cast<std::size_t>(i * all / kept);
+    for (std::size_t k = one * together; k < (one + 1) * together; ++k) {
+      marker.points.push_back(FromMarker(message.points[k]));
+      if (has_colors) marker.colors.push_back(ColorOf(message.colors[k]));
+      if (has_face_colors) marker.colors.push_back(ColorOf(message.colors[one]));
+    }
+  }
+  return true;
 }
 
 // What has one goes, with its colours: a line, a triangle, one of many cubes.
@@ -134,14 +161,10 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
   marker.scale = FromMarker(message.scale);
   marker.color = ColorOf(message.color);
   if (HasPoints(marker.type)) {
-    for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
-    if (marker.type != MarkerType::kArrow) {
-      // As in RViz, triangles may have one color each.
-      const bool has_face_colors = marker.type == MarkerType::kTriangleList &&
-                                   3 * message.colors.size() == message.points.size();
-      for (const auto& color : message.colors) {
-        marker.colors.insert(marker.colors.end(), has_face_colors ? 3 : 1, ColorOf(color));
-      }
+    if (!CopyPoints(message, marker)) {
+      return tl::unexpected(RefusalOf(
+          "its colors", message,
+          fmt::format("{} points and {} colors", message.points.size(), message.colors.size())));
     }
     DropFarPoints(marker);
   }

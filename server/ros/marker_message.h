@@ -16,7 +16,8 @@ inline constexpr std::size_t kLongestMarkerName = 256;  // bytes, of a frame or 
 /// The shape only, in the frame of the message. A quaternion of zeros is no rotation; any other is
 /// normalised. Points, colours and texts are dropped for types that do not use them. As in RViz:
 /// colours beyond 0 to 1 are clamped, points that are not finite are left out, a size below 0 is
-/// one above, and what is flat has a thickness. A text that is too long is shortened.
+/// one above, and what is flat has a thickness. A text that is too long is shortened; of more than
+/// kMaxMarkerPoints points, as many are taken throughout.
 Taken<SceneMarker> ToSceneMarker(const visualization_msgs::Marker& message);
 
 /// As of ToSceneMarker.

@@ -76,7 +76,7 @@ MarkerInbox::MarkerInbox(std::vector<ShownTopic> topics, CameraFrames camera_fra
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const ShownTopic& topic = topics_[i];
     if (topic.is_every_frame()) {
-      frames_.emplace(topic.style, kFramesEveryNanos);
+      frames_.emplace_back(topic.style, kFramesEveryNanos, static_cast<int>(frames_.size()));
     } else if (topic.is_frame) {
       store_.AddOfFrame(i, topic);
     } else {
@@ -258,7 +258,7 @@ std::vector<const RobotFrames*> MarkerInbox::Robots() const {
 }
 
 bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
-  if (!frames_) return false;
+  if (frames_.empty()) return false;
   const auto list = [this](const ShownFrames::TakeFrame& take) {
     for (const auto& [name, frame] : tf_->frames()) take(frame);
     if (tf_->frames().count(frame_->name()) == 0) take({frame_->name(), "", 0});
@@ -271,8 +271,11 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
     }
   };
   const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
-  const bool has_changed = frames_->Update(monotonic_nanos, list, find_now);
-  if (std::string lost = frames_->TakeLost(); !lost.empty()) {
+  bool has_changed = false;
+  for (ShownFrames& frames : frames_) {
+    has_changed = frames.Update(monotonic_nanos, list, find_now) || has_changed;
+  }
+  if (std::string lost = frames_.front().TakeLost(); !lost.empty()) {
     const std::lock_guard<std::mutex> lock(mutex_);
     InputCounters& counters = counters_[kNamespaceOfFrames];
     ++counters.refused["unknown frame"];

@@ -104,7 +104,7 @@ class MarkerInbox {
   MarkerStore store_;
   ImageBox images_;
   FollowedFrame camera_frame_;
-  std::optional<ShownFrames> frames_;
+  std::vector<ShownFrames> frames_;
   std::map<int, Body> bodies_;  // by character
   std::int64_t looked_nanos_ = 0;
   std::set<std::string> unplaced_, warned_;  // texts: when it looked last; of the log

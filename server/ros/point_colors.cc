@@ -55,6 +55,10 @@ std::optional<int> AxisOf(const ShownStyle& style) {
   return std::nullopt;
 }
 
+std::optional<int> SceneAxisOf(const ShownStyle& style) {
+  return style.scale && style.scale->is_in_message ? std::nullopt : AxisOf(style);
+}
+
 std::vector<std_msgs::ColorRGBA> ColorsOf(const std::vector<double>& values,
                                           const ShownStyle& style) {
   const PointScale scale = style.scale.value_or(PointScale{});

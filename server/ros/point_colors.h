@@ -11,8 +11,11 @@
 
 namespace kinescope::ros_bridge {
 
-/// The axis of the scene by which the style colours points (0: x); nullopt: by none.
+/// The axis by which the style colours points (0: x), of the scene or of their message; nullopt:
+/// by none.
 std::optional<int> AxisOf(const ShownStyle& style);
+/// The same, of the scene alone: it is known where the points are placed.
+std::optional<int> SceneAxisOf(const ShownStyle& style);
 
 /// One for each of `values`. Without a scale in the style: a rainbow from the least of them, red,
 /// to the most, magenta. A value that is not finite has the colour of the least. Source:

@@ -82,6 +82,9 @@ void RobotInbox::SetDescription(std::size_t i, const std::optional<std::string>&
   robot.meshes = std::make_shared<const urdf::MeshSearch>(std::move(search));
   spdlog::info("{}: robot '{}' with {} links", ParameterOf(i), robot.name,
                robot.model->links.size());
+  for (const std::string& note : robot.model->notes) {
+    spdlog::warn("robot '{}': {}", robot.name, note);
+  }
   const std::size_t remote = download::CountRemoteMeshes(*robot.model);
   if (remote == 0) return TakeUp(i, std::move(robot));
   spdlog::info("robot '{}': loads {} from web servers", robot.name,

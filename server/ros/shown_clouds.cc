@@ -21,7 +21,7 @@ using visualization_msgs::Marker;
 constexpr double kPointSize = 0.01;  // m
 
 // The field by which points are coloured where they have no colours of their own, or by the style;
-// "": by none, since all have one colour or that of their place in the scene.
+// "": by none, since all have one colour or that of their place.
 std::string FieldOf(const ShownStyle& style) {
   if (style.color || AxisOf(style)) return "";
   return style.scale && !style.scale->by.empty() ? style.scale->by : "intensity";
@@ -34,8 +34,43 @@ std::vector<std::string> NamesOf(const std::string& field) {
   return {field};
 }
 
-std::size_t StepOf(std::uint64_t points, const ShownStyle& style) {
-  return static_cast<std::size_t>((points + style.most_points - 1) / style.most_points);
+// Of many points in rows, about as many as the style allows: of each row as many, each row begins
+// elsewhere, so that neither rings of a lidar nor columns of a camera are lost.
+class Shares {
+ public:
+  Shares(std::uint64_t width, std::uint64_t height, const ShownStyle& style)
+      : width_(width), height_(height), in_row_(width) {
+    if (width * height <= style.most_points) return;
+    if (height > style.most_points) {  // as one row
+      width_ = width * height;
+      height_ = 1;
+    }
+    in_row_ = style.most_points / height_;
+  }
+  std::size_t size() const { return static_cast<std::size_t>(in_row_ * height_); }
+  std::size_t operator[](std::size_t i) const {
+    if (in_row_ == width_) return i;
+    constexpr double kGolden = 0.6180339887498949;
+    const std::uint64_t row = i / in_row_, place = i % in_row_;
+    const double turns = kGolden * static_cast<double>(row);
+    const double begin = turns - std::floor(turns);
+    const double column = (static_cast<double>(place) + begin) * static_cast<double>(width_) /
+                          static_cast<double>(in_row_);
+    return static_cast<std::size_t>(row * width_ +
+                                    std::min(static_cast<std::uint64_t>(column), width_ - 1));
+  }
+
+ private:
+  std::uint64_t width_, height_, in_row_;
+};
+
+// The axis by which the points are coloured in the frame of their message; nullopt: by none.
+std::optional<int> OwnAxisOf(const ShownStyle& style) {
+  return SceneAxisOf(style) ? std::nullopt : AxisOf(style);
+}
+
+double At(const geometry_msgs::Point& point, int axis) {
+  return axis == 0 ? point.x : axis == 1 ? point.y : point.z;
 }
 
 // 0xAARRGGBB; the first has no meaning here.
@@ -76,6 +111,17 @@ class CloudField {
                          std::uint64_t{field.offset} + size, cloud.point_step);
     }
     return "it has no field " + name;
+  }
+
+  // Red, green and blue from 0 to 1; empty: it has not all of them.
+  static std::vector<CloudField> FindColors(const sensor_msgs::PointCloud2& cloud) {
+    std::vector<CloudField> all;
+    for (const char* const name : {"r", "g", "b"}) {
+      const auto found = Find(cloud, {name});
+      if (!found || !found->is_float()) return {};
+      all.push_back(*found);
+    }
+    return all;
   }
 
   bool is_float() const { return type_ == sensor_msgs::PointField::FLOAT32; }
@@ -122,6 +168,15 @@ class CloudField {
   bool has_alpha_;
 };
 
+std_msgs::ColorRGBA ColorOfShares(const std::vector<CloudField>& rgb, const std::uint8_t* point) {
+  const auto level = [&](std::size_t i) {
+    const double share = rgb[i].Number(point);
+    return std::isfinite(share) ? static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0)))
+                                : 0;
+  };
+  return Color(level(0), level(1), level(2));
+}
+
 // Why it cannot be read, or null.
 const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
   if (cloud.is_bigendian != 0) return "its numbers are big-endian";
@@ -138,18 +193,21 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
   Marker points = PointsOf(message.header, style, kPointSize);
   const bool has_intensities =
       FieldOf(style) == "intensity" && message.intensities.size() == message.ranges.size();
-  const std::size_t step = StepOf(message.ranges.size(), style);
-  std::vector<double> intensities;
-  for (std::size_t i = 0; i < message.ranges.size(); i += step) {
+  const std::optional<int> axis = OwnAxisOf(style);
+  const Shares shares(message.ranges.size(), 1, style);
+  std::vector<double> values;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const std::size_t i = shares[k];
     const float range = message.ranges[i];
     if (!(range >= message.range_min && range <= message.range_max)) continue;
     const double angle = static_cast<double>(message.angle_min) +
                          static_cast<double>(i) * static_cast<double>(message.angle_increment);
     const auto metres = static_cast<double>(range);
     points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
-    if (has_intensities) intensities.push_back(static_cast<double>(message.intensities[i]));
+    if (has_intensities) values.push_back(static_cast<double>(message.intensities[i]));
+    if (axis) values.push_back(At(points.points.back(), *axis));
   }
-  points.colors = ColorsOf(intensities, style);
+  points.colors = ColorsOf(values, style);
   return PointsOrNone(std::move(points));
 }
 
@@ -165,14 +223,19 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
     if (!why.empty()) return refuse(why);
   }
   const auto packed = CloudField::Find(message, {"rgb", "rgba"});
-  const bool has_colors = packed && packed->size() == 4 && !style.color && !style.scale;
+  const bool wants_colors = !style.color && !style.scale;
+  const bool is_packed = packed && packed->size() == 4 && wants_colors;
+  const std::vector<CloudField> rgb =
+      is_packed || !wants_colors ? std::vector<CloudField>() : CloudField::FindColors(message);
+  const bool has_colors = is_packed || !rgb.empty();
   const auto field = has_colors ? std::nullopt : CloudField::Find(message, NamesOf(FieldOf(style)));
+  const std::optional<int> axis = OwnAxisOf(style);
   Marker points = PointsOf(message.header, style, kPointSize);
   std::vector<double> values;
   std::vector<std_msgs::ColorRGBA> colors;
-  const std::uint64_t count = std::uint64_t{message.width} * message.height;
-  const std::size_t step = StepOf(count, style);
-  for (std::uint64_t i = 0; i < count; i += step) {
+  const Shares shares(message.width, message.height, style);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const std::uint64_t i = shares[k];
     const std::uint8_t* const point = message.data.data() + i / message.width * message.row_step +
                                       i % message.width * message.point_step;
     const geometry_msgs::Point place =
@@ -180,13 +243,14 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
     if (!std::isfinite(place.x + place.y + place.z)) continue;  // depth cameras send many
     points.points.push_back(place);
     if (has_colors) {
-      std_msgs::ColorRGBA color = packed->Packed(point);
+      std_msgs::ColorRGBA color = is_packed ? packed->Packed(point) : ColorOfShares(rgb, point);
       const float alpha = color.a;
       color = In(style, color);
       if (style.alpha) color.a *= alpha;
       colors.push_back(color);
     }
     if (field) values.push_back(field->Number(point));
+    if (axis) values.push_back(At(place, *axis));
   }
   points.colors = has_colors ? std::move(colors) : ColorsOf(values, style);
   return PointsOrNone(std::move(points));
@@ -208,14 +272,17 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
       packed != nullptr ? nullptr : find(NamesOf(FieldOf(style)));
   std::vector<double> values;
   std::vector<std_msgs::ColorRGBA> colors;
-  const std::size_t step = StepOf(message.points.size(), style);
-  for (std::size_t i = 0; i < message.points.size(); i += step) {
+  const std::optional<int> axis = OwnAxisOf(style);
+  const Shares shares(message.points.size(), 1, style);
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const std::size_t i = shares[k];
     const geometry_msgs::Point32& point = message.points[i];
     const geometry_msgs::Point place = PointAt(
         static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));
     if (!std::isfinite(place.x + place.y + place.z)) continue;
     points.points.push_back(place);
     if (channel != nullptr) values.push_back(static_cast<double>((*channel)[i]));
+    if (axis) values.push_back(At(place, *axis));
     if (packed == nullptr) continue;
     std::uint32_t bits = 0;
     std::memcpy(&bits, &(*packed)[i], sizeof bits);

@@ -26,7 +26,8 @@ const Vector3d kShaftColor(0.8, 0.8, 0.3), kHeadColor(1, 0.1, 0.6), kGrey(0.7, 0
 constexpr int kSidesOfHead = 8;
 constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
 constexpr double kFarthest = kFarthestMarker / 2;
-constexpr std::size_t kMostNamed = 8, kLongestName = 100;  // bytes
+constexpr std::size_t kMostNamed = 8, kLongestName = 100;     // bytes
+constexpr int kIds = static_cast<int>(kMostShownFrames) + 3;  // of each way to show them
 constexpr double kSilentSecs = 2;  // after that a frame is no longer heard of
 
 std::shared_ptr<SceneMarker> EmptyMarker(int id, MarkerType type) {
@@ -83,8 +84,8 @@ void AddHead(SceneMarker& heads, const Vector3d& base, const Vector3d& tip, doub
 
 }  // namespace
 
-ShownFrames::ShownFrames(const ShownStyle& style, std::int64_t every_nanos)
-    : style_(style), every_nanos_(every_nanos) {}
+ShownFrames::ShownFrames(const ShownStyle& style, std::int64_t every_nanos, int number)
+    : style_(style), every_nanos_(every_nanos), first_id_(number * kIds) {}
 
 bool ShownFrames::Shown::operator==(const Shown& other) const {
   return name == other.name && pose.position == other.pose.position &&
@@ -187,9 +188,9 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame
 
 void ShownFrames::Draw() {
   const double length = style_.size_m.value_or(kUsualLength);
-  const auto axes = EmptyMarker(0, MarkerType::kLineList),
-             shafts = EmptyMarker(1, MarkerType::kLineList),
-             heads = EmptyMarker(2, MarkerType::kTriangleList);
+  const auto axes = EmptyMarker(first_id_, MarkerType::kLineList),
+             shafts = EmptyMarker(first_id_ + 1, MarkerType::kLineList),
+             heads = EmptyMarker(first_id_ + 2, MarkerType::kTriangleList);
   axes->scale.x() = kAxisWidth * length;
   shafts->scale.x() = kShaftWidth * length;
   markers_.clear();
@@ -217,7 +218,7 @@ void ShownFrames::Draw() {
   const Vector3d color(rgb[0], rgb[1], rgb[2]);
   for (std::size_t i = 0; style_.frames.has_names && i < shown_.size(); ++i) {
     const Shown& frame = shown_[i];
-    const auto name = EmptyMarker(static_cast<int>(i) + 3, MarkerType::kText);
+    const auto name = EmptyMarker(first_id_ + 3 + static_cast<int>(i), MarkerType::kText);
     name->text = PrintableLine(frame.name.substr(0, kLongestName));
     name->scale.z() = style_.frames.name_m.value_or(kNameHeight * length);
     name->pose.position = frame.pose.position - Vector3d(0, 0, name->scale.z() / 2);
@@ -245,8 +246,10 @@ std::string ShownFrames::TakeLost() {
   return text;
 }
 
-MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames) {
-  if (frames) markers.insert(markers.end(), frames->markers().begin(), frames->markers().end());
+MarkerList Together(MarkerList markers, const std::vector<ShownFrames>& frames) {
+  for (const ShownFrames& each : frames) {
+    markers.insert(markers.end(), each.markers().begin(), each.markers().end());
+  }
   return markers;
 }
 

@@ -30,7 +30,8 @@ class ShownFrames {
   using FindFrame = std::function<std::optional<urdf::Pose>(const std::string& frame)>;
 
   /// @param every_nanos  the frames are looked at no more often
-  ShownFrames(const ShownStyle& style, std::int64_t every_nanos);
+  /// @param number  of several ways in which they are shown, from 0
+  ShownFrames(const ShownStyle& style, std::int64_t every_nanos, int number = 0);
 
   /// True if the markers have changed. Of more than kMostShownFrames frames the first by name are
   /// shown. A frame whose transforms do not come any more turns grey, pale, and is gone after the
@@ -78,8 +79,9 @@ class ShownFrames {
                            std::int64_t now_nanos);
   void Draw();
 
-  const ShownStyle style_;
-  const std::int64_t every_nanos_;
+  ShownStyle style_;
+  std::int64_t every_nanos_;
+  int first_id_;  // of its markers
   std::optional<std::int64_t> looked_nanos_;
   std::unordered_map<std::string, Seen> seen_;
   std::vector<Shown> shown_;
@@ -88,7 +90,7 @@ class ShownFrames {
   std::set<std::string> told_;  // those of lost_ that were told
 };
 
-/// `markers`, then those of the frames, if they are shown.
-MarkerList Together(MarkerList markers, const std::optional<ShownFrames>& frames);
+/// `markers`, then those of the frames.
+MarkerList Together(MarkerList markers, const std::vector<ShownFrames>& frames);
 
 }  // namespace kinescope::ros_bridge

@@ -27,8 +27,13 @@ void AddRectangle(double x, double y, double width, double height, Marker& trian
   }
 }
 
-// rviz/default_plugin/map_display.cpp, the schemes "map" and "costmap"; a cost of 0 is transparent.
-std_msgs::ColorRGBA MapColor(std::int8_t cell, bool is_costmap) {
+// rviz/default_plugin/map_display.cpp; a cost of 0 is transparent.
+std_msgs::ColorRGBA MapColor(std::int8_t cell, MapColors colors) {
+  if (colors == MapColors::kRaw) {
+    const int level = static_cast<std::uint8_t>(cell);
+    return Color(level, level, level);
+  }
+  const bool is_costmap = colors == MapColors::kCostmap;
   if (cell >= 0 && cell <= 100) {
     const int level = 255 * cell / 100;
     if (!is_costmap) return Color(255 - level, 255 - level, 255 - level);
@@ -147,9 +152,9 @@ Taken<ShownMarkers> ToMarkers(const nav_msgs::OccupancyGrid& message, const Show
   map.pose = info.origin;
   const double metres = static_cast<double>(info.resolution) * step;
   for (const MapRectangle& each : *rectangles) {
-    if (style.is_costmap && each.cell == 0) continue;
+    if (style.map_colors == MapColors::kCostmap && each.cell == 0) continue;
     AddRectangle(each.x * metres, each.y * metres, each.width * metres, each.height * metres, map);
-    map.colors.resize(map.points.size(), In(seen_through, MapColor(each.cell, style.is_costmap)));
+    map.colors.resize(map.points.size(), In(seen_through, MapColor(each.cell, style.map_colors)));
   }
   return OneOrNone(std::move(map));
 }

@@ -63,6 +63,7 @@ std::string ModelFactory::NameOf(const PersonDescription& person) const {
 std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& person,
                                                       std::uint64_t revision) const {
   auto model = std::make_shared<PersonModel>();
+  model->index = person.index;
   model->revision = revision;
   model->description = BodyOf(person.stated);
   model->lengths_are_measured = person.character.skeleton.has_value();

@@ -1,5 +1,7 @@
 #include "server/scene/person_tracker.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -50,6 +52,8 @@ void PersonTracker::SetCharacter(const Character& received) {
   const bool same_color = person_.character.color_rgb == character.color_rgb;
   person_.character = character;
   if (!same_body) {
+    watch_ = SkeletonWatch();
+    is_watched_ = false;
     l5_is_checked_ = false;
     person_.l5_in_pelvis.reset();
   }
@@ -87,15 +91,33 @@ bool PersonTracker::CheckL5(const BodySample& sample) {
 }
 
 bool PersonTracker::MeasureSkeleton(const BodySample& sample) {
-  if (person_.character.skeleton && !person_.lengths_are_of_poses) return false;
   const auto measured = watch_.Look(sample);
   if (!measured) return false;
+  if (person_.character.skeleton && !person_.lengths_are_of_poses) {
+    if (is_watched_) WarnOfOtherLengths(*measured);
+    is_watched_ = true;
+    return false;
+  }
   person_.character.skeleton = *measured;
   person_.lengths_are_of_poses = true;
   l5_is_checked_ = true;
   person_.l5_in_pelvis.reset();
   has_new_lengths_ = true;
   return true;
+}
+
+void PersonTracker::WarnOfOtherLengths(const urdf::Skeleton& measured) const {
+  double most = 0;
+  for (std::size_t i = 0; i < measured.origin_in_parent.size(); ++i) {
+    most = std::max(most, std::abs(measured.origin_in_parent[i].norm() -
+                                   person_.character.skeleton->origin_in_parent[i].norm()));
+  }
+  spdlog::warn(
+      "the segments of '{}' have other lengths now, by up to {:.0f} cm, and no scale data came "
+      "with "
+      "them: body and loads are still those of before; if another person wears the suit, let MVN "
+      "stream scale data",
+      person_.character.name, 100 * most);
 }
 
 // Without leg sensors MVN keeps the pelvis near z = 0 and hangs straight legs below it, which never

@@ -65,6 +65,7 @@ class PersonTracker {
   /// Takes the lengths from the poses as long as the source does not send them. True if they are
   /// new.
   bool MeasureSkeleton(const BodySample& sample);
+  void WarnOfOtherLengths(const urdf::Skeleton& measured) const;
   static bool LegsHang(const urdf::LinkPoses& links);
   void FindFloor(const BodySample& sample, const urdf::LinkPoses& links,
                  std::optional<double> given);
@@ -81,6 +82,7 @@ class PersonTracker {
   bool has_new_lengths_ = false;              // that model_ does not have yet
   bool l5_is_checked_ = false;                // against the first pose; see CheckL5
   SkeletonWatch watch_;
+  bool is_watched_ = false;  // with lengths that the source sent: watch_ knows those of the poses
   urdf::JointAngles angles_{};
   urdf::RigidDeviation worst_deviation_;
   loads::LoadEstimator loads_;

@@ -166,7 +166,10 @@ Link ToLink(const ::urdf::Link& from, std::vector<std::string>& notes) {
     link.mass = link.inertial->mass;
   }
   for (const auto& visual : from.visual_array) {
-    if (visual && visual->geometry) link.visuals.push_back(ToVisual(*visual, where, notes));
+    if (!visual || !visual->geometry) continue;
+    Visual made = ToVisual(*visual, where, notes);
+    if (!visual->material && !link.visuals.empty()) made.rgba = link.visuals.back().rgba;
+    link.visuals.push_back(std::move(made));
   }
   for (const auto& collision : from.collision_array) {
     if (!collision || !collision->geometry) continue;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -27,10 +28,24 @@ constexpr char kNotNow[] = "the server is starting or stopping";
 
 using Refused = std::vector<std::string>;  // why not, of each that is not changed
 
-std::optional<int> FirstCharacter(const RosDesk::Parts& parts) {
+// Whose topics and parameters have no prefix; null: there is none now.
+const PersonState* FirstPerson(const SceneState* state) {
+  if (state == nullptr) return nullptr;
+  const auto first =
+      std::find_if(state->people.begin(), state->people.end(),
+                   [](const PersonState& person) { return person.model->index == 0; });
+  return first == state->people.end() ? nullptr : &*first;
+}
+
+struct First {
+  std::optional<int> character;
+  std::string why_not;
+};
+First FirstOf(const RosDesk::Parts& parts) {
   const auto state = parts.states.Get();
-  if (state == nullptr || state->people.empty()) return std::nullopt;
-  return state->people.front().character;
+  if (const PersonState* const first = FirstPerson(state.get())) return {first->character, ""};
+  const bool is_empty = state == nullptr || state->people.empty();
+  return {std::nullopt, is_empty ? kNobodyYet : "the first person of the stream is away"};
 }
 
 // Before the first sample.
@@ -48,7 +63,12 @@ Refused ChangeOnPage(const RosDesk::Parts& parts, const SettingsChange& wanted) 
   };
   if (wanted.class_limits) add(parts.desk->SetClassLimits(*wanted.class_limits, kRosRole));
   if (!wanted.person.is_empty()) {
-    add(parts.desk->SetPerson({FirstCharacter(parts), wanted.person}, kRosRole));
+    const First first = FirstOf(parts);
+    if (first.character) {
+      add(parts.desk->SetPerson({first.character, wanted.person}, kRosRole));
+    } else {
+      refused.push_back(first.why_not);
+    }
   }
   if (!wanted.camera) return refused;
   const std::string wrong = parts.page->SelectCamera(*wanted.camera, kRosRole);
@@ -67,10 +87,10 @@ Refused ChangeAlone(const RosDesk::Parts& parts, const SettingsChange& wanted) {
     }
   }
   if (!wanted.person.is_empty()) {
-    const std::optional<int> first = FirstCharacter(parts);
-    const std::string wrong = first ? FindDefect(wanted.person) : kNobodyYet;
+    const First first = FirstOf(parts);
+    const std::string wrong = first.character ? FindDefect(wanted.person) : first.why_not;
     if (wrong.empty()) {
-      parts.changes.Put(*first, wanted.person);
+      parts.changes.Put(*first.character, wanted.person);
     } else {
       refused.push_back(wrong);
     }
@@ -145,8 +165,8 @@ std::optional<LiveSettings> RosDesk::Settings() {
   if (!parts_) return std::nullopt;
   LiveSettings now;
   const auto state = parts_->states.Get();
-  const PersonModel& model =
-      state->people.empty() ? *parts_->initial_model : *state->people.front().model;
+  if (const PersonState* const first = FirstPerson(state.get())) first_model_ = first->model;
+  const PersonModel& model = first_model_ ? *first_model_ : *parts_->initial_model;
   now.class_limits = state->class_limits;
   now.mass_kg = model.description.mass_kg;
   now.sex = model.description.sex;

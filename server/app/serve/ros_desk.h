@@ -56,8 +56,10 @@ class RosDesk {
   std::optional<Result> OnPage(std::function<Result()> work) const;
 
   std::atomic<bool> is_closing_{false};
-  std::mutex mutex_;            // held while an order is carried out
-  std::optional<Parts> parts_;  // guarded by mutex_
+  std::mutex mutex_;  // held while an order is carried out
+  // Guarded by mutex_:
+  std::optional<Parts> parts_;
+  std::shared_ptr<const PersonModel> first_model_;  // of the first person when last seen
 };
 
 }  // namespace kinescope::app

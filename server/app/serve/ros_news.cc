@@ -49,6 +49,11 @@ Diagnosis DiagnosisOfStream(const SceneState* state, const StreamHealth& stream)
   if (state != nullptr) {
     diagnosis.values.emplace_back("source", state->source);
     diagnosis.values.emplace_back("people", std::to_string(state->people.size()));
+    for (const PersonState& person : state->people) {
+      diagnosis.values.emplace_back(
+          person.model->human.model_name,
+          fmt::format("'{}', character {}", PrintableLine(person.name), person.character));
+    }
   }
   return diagnosis;
 }

@@ -99,14 +99,12 @@ Visualization Manager:
                   "covariance_"
                   "color=#cc33cc,turn_covariance=1,turn_covariance_alpha=0.5,turn_covariance_"
                   "offset=1,turn_covariance_color=#ffff7f,keep=1,step=0.1,turn=0.1)",
-                  "(alpha=0.25,scheme=costmap,updates=on,behind=on)", "(updates=on)",
-                  "(color=#19ff00,pixels=1)", "(by=x,from=-1,to=2.5)",
+                  "(alpha=0.25,scheme=costmap,updates=on,behind=on)", "(scheme=raw,updates=on)",
+                  "(color=#19ff00,pixels=1)", "(by=x,from=-1,to=2.5,axis=message)",
                   "(by=intensity,rainbow=inverted)",
                   "(by=ring,from=5,to=1000000000000,low=#0000ff,high=#ff0000)", "(by=_)", ""));
   for (const char* remark :
        {"Draw Behind: it is drawn behind other maps", "an arrow of 17 m is drawn with 10 m",
-        "Color Scheme 'raw' is drawn as 'map'",
-        "Use Fixed Frame 'false': the axis is that of the scene",
         "Channel Name 'my,ring' cannot be taken; its points are white",
         "Color Transformer 'MONO8' is not taken"}) {
     EXPECT_THAT(picture.remarks, Contains(HasSubstr(remark)));
@@ -115,7 +113,7 @@ Visualization Manager:
   value.Parse(all);
   ASSERT_EQ(value->size(), 14u);
   EXPECT_TRUE((*value)[1].style.has_axes);
-  EXPECT_TRUE((*value)[11].style.is_costmap);
+  EXPECT_EQ((*value)[11].style.map_colors, MapColors::kCostmap);
   EXPECT_TRUE((*value)[11].style.has_updates);
   EXPECT_TRUE((*value)[12].style.has_updates);
   EXPECT_FALSE((*value)[13].style.has_updates);
@@ -129,6 +127,7 @@ Visualization Manager:
   ASSERT_EQ(value->size(), 5u);
   EXPECT_EQ((*value)[0].style.scale->by, "x");
   EXPECT_EQ((*value)[0].style.scale->from, -1);
+  EXPECT_TRUE((*value)[0].style.scale->is_in_message);
   EXPECT_TRUE((*value)[1].style.scale->is_inverted);
   EXPECT_EQ((*value)[2].style.scale->to, 1e12);
   EXPECT_EQ(((*value)[2].style.scale->low), (Rgb{0, 0, 1}));

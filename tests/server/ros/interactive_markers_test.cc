@@ -121,6 +121,16 @@ TEST_F(InteractiveMarkersTest, HaveTheMarkersOfTheirControlsInTheirPose) {
   EXPECT_TRUE(newest_.at(0).frame_locked) << "without a stamp it goes with its frame";
 }
 
+TEST_F(InteractiveMarkersTest, OfAFixedOrientationKeepTheAxesOfTheFrame) {
+  InteractiveMarker fixed = BoxAt("a", 2, /*is_turned=*/true);
+  fixed.controls[0].orientation_mode = InteractiveMarkerControl::FIXED;
+  EXPECT_EQ(Take(AllOf(1, {fixed})), "");
+  ASSERT_THAT(places(), SizeIs(1));
+  EXPECT_TRUE(places()[0].isApprox(Vector3d(2.1, 5, 0)));
+  EXPECT_EQ(Take(Moved(2, "a", 3, M_PI / 4)), "");
+  EXPECT_TRUE(places()[0].isApprox(Vector3d(3.1, 5, 0)));
+}
+
 TEST_F(InteractiveMarkersTest, MoveChangeAndGoWithUpdates) {
   EXPECT_EQ(Take(AllOf(1, {BoxAt("a", 1), BoxAt("b", 2)})), "");
   EXPECT_EQ(Take(Moved(2, "a", 3, M_PI / 2)), "");

@@ -1,5 +1,6 @@
 #include "server/ros/marker_input.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Path.h>
@@ -15,6 +16,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
+using ::testing::HasSubstr;
 using visualization_msgs::Marker;
 
 Marker Cube(int id, double x = 0) {
@@ -149,7 +151,7 @@ TEST(MarkerInput, RejectsInvalidMarkersByNameAndReason) {
   bad.points.resize(kMaxMarkerPoints + 1);
   refusal = store.Apply(0, bad, 0);
   ASSERT_TRUE(refusal);
-  EXPECT_STREQ(refusal->kind, "too large");
+  EXPECT_STREQ(refusal->kind, "its colors");
   bad = Cube(1);
   bad.type = 12;
   EXPECT_TRUE(store.Apply(0, bad, 0));
@@ -159,6 +161,40 @@ TEST(MarkerInput, RejectsInvalidMarkersByNameAndReason) {
   ASSERT_TRUE(refusal);
   EXPECT_STREQ(refusal->kind, "unknown action");
   EXPECT_FALSE(store.Update(0, Cart().Find()));
+}
+
+TEST(MarkerInput, OfTooManyPointsHasAsManyThroughout) {
+  MarkerStore store;
+  Marker lines = Of(Marker::LINE_LIST);
+  lines.points.resize(3 * kMaxMarkerPoints);
+  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+    lines.points[i].x = 1e-3 * static_cast<double>(i / 2);
+    lines.points[i].y = static_cast<double>(i % 2);
+  }
+  lines.colors.assign(lines.points.size(), lines.color);
+  const auto some = store.Apply(0, lines, 0);
+  ASSERT_TRUE(some);
+  EXPECT_TRUE(some->is_partial);
+  EXPECT_THAT(some->text, HasSubstr("100000 of 300000 points are drawn"));
+  ASSERT_TRUE(store.Update(0, Cart().Find()));
+  const SceneMarker& drawn = *store.markers().at(0);
+  ASSERT_EQ(drawn.points.size(), kMaxMarkerPoints);
+  EXPECT_EQ(drawn.colors.size(), kMaxMarkerPoints);
+  for (std::size_t i = 0; i < drawn.points.size(); i += 2) {
+    ASSERT_EQ(drawn.points[i].x(), drawn.points[i + 1].x()) << "both ends of a line";
+  }
+  EXPECT_GT(drawn.points.back().x(), 149.9);
+}
+
+TEST(MarkerStore, HasTranslucentAxes) {
+  ShownTopic axes;
+  axes.is_frame = true;
+  axes.name = "cart";
+  axes.style.alpha = 0.25;
+  MarkerStore store;
+  store.AddOfFrame(0, axes);
+  ASSERT_TRUE(store.Update(0, Cart().Find()));
+  for (const Eigen::Vector4d& color : store.markers().at(0)->colors) EXPECT_EQ(color.w(), 0.25);
 }
 
 // RViz draws a grid in its fixed frame whether TF knows that or not.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +113,25 @@ TEST_F(ShownFramesTest, AreWhatTheStyleHasOfThem) {
   ASSERT_TRUE(UpdateAt(0));
   EXPECT_DOUBLE_EQ(frames_->markers().back()->scale.z(), 0.3);
   EXPECT_EQ(frames_->markers().back()->color, Vector4d(1, 1, 1, 1));
+}
+
+// As two TF displays of RViz.
+TEST_F(ShownFramesTest, AreShownInTwoWaysAsMarkersOfTheirOwn) {
+  Set("world", "", {0, 0, 0});
+  ShownStyle large;
+  large.size_m = 0.6;
+  std::vector<ShownFrames> ways;
+  for (const ShownStyle& style : {ShownStyle{}, large}) {
+    frames_.emplace(style, kEvery, static_cast<int>(ways.size()));
+    ASSERT_TRUE(UpdateAt(0));
+    ways.push_back(*frames_);
+  }
+  std::set<int> ids;
+  const MarkerList all = Together({}, ways);
+  for (const auto& marker : all) ids.insert(marker->id);
+  EXPECT_EQ(all.size(), 4u);
+  EXPECT_EQ(ids.size(), all.size());
+  EXPECT_DOUBLE_EQ(all[2]->scale.x(), 3 * all[0]->scale.x());
 }
 
 TEST_F(ShownFramesTest, ChangeOnlyWhenAFrameDoesAndNoMoreOftenThanTold) {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "server/ros/marker_input.h"
 
@@ -362,7 +363,7 @@ TEST(ShownMessages, AMeasuredValueIsASphereInItsColour) {
   ShownStyle style;
   style.has_spheres = true;
   style.size_m = 0.15;
-  style.scale = PointScale{"temperature", 0, 90, Rgb{0, 1, 0}, Rgb{1, 0, 0}};
+  style.scale = PointScale{"temperature", false, 0, 90, Rgb{0, 1, 0}, Rgb{1, 0, 0}};
   ShownMarkers markers = ShownOf(effort, style);
   ASSERT_THAT(markers, SizeIs(1));
   EXPECT_EQ(markers[0].type, Marker::SPHERE);
@@ -510,14 +511,59 @@ TEST(ShownMessages, AScaleComesBeforeColoursOfTheCloudAndAColourBeforeBoth) {
   EXPECT_EQ(RgbOf(markers.at(0).color), (std::array<int, 3>{0, 255, 0}));
 }
 
-TEST(ShownMessages, OfALargeCloudEveryNthPointIsShown) {
+TEST(ShownMessages, OfALargeCloudAsManyPointsAreShownThroughout) {
   const sensor_msgs::PointCloud2 cloud = CloudOf(50'000, "intensity", 7);
-  EXPECT_THAT(ShownOf(cloud).at(0).points, SizeIs(16'667));
+  EXPECT_THAT(ShownOf(cloud).at(0).points, SizeIs(20'000));
   ShownStyle style;
   style.most_points = 49'999;
-  EXPECT_THAT(ShownOf(cloud, style).at(0).points, SizeIs(25'000));
+  EXPECT_THAT(ShownOf(cloud, style).at(0).points, SizeIs(49'999));
   style.most_points = 50'000;
   EXPECT_THAT(ShownOf(cloud, style).at(0).points, SizeIs(50'000));
+}
+
+// Every 16th of 640 x 480 points would be 40 columns.
+TEST(ShownMessages, ALargeCloudInRowsKeepsItsColumnsAndItsRows) {
+  constexpr std::uint32_t kWidth = 640, kHeight = 480;
+  auto cloud = CloudOf(kWidth * kHeight, "intensity", 7);
+  cloud.width = kWidth;
+  cloud.height = kHeight;
+  cloud.row_step = 16 * kWidth;
+  for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
+    Put(cloud, i, 0, static_cast<float>(i % kWidth));
+    Put(cloud, i, 1, static_cast<float>(i / kWidth));
+  }
+  std::set<double> columns, rows;
+  const ShownMarkers markers = ShownOf(cloud);
+  for (const auto& point : markers.at(0).points) {
+    columns.insert(point.x);
+    rows.insert(point.y);
+  }
+  EXPECT_EQ(columns.size(), kWidth);
+  EXPECT_EQ(rows.size(), kHeight);
+}
+
+TEST(ShownMessages, ACloudHasTheColoursOfThreeNumbers) {
+  auto cloud = CloudOf(1, "b", sensor_msgs::PointField::FLOAT32);
+  for (const char* const name : {"r", "g"}) {
+    cloud.fields.push_back(cloud.fields.back());
+    cloud.fields.back().name = name;
+  }
+  cloud.fields[4].offset = 0;  // r: x
+  cloud.fields[5].offset = 4;  // g: y
+  Put(cloud, 0, 0, 1.0F);
+  Put(cloud, 0, 1, 0.5F);
+  Put(cloud, 0, 3, 7.0F);
+  EXPECT_EQ(RgbOf(ShownOf(cloud).at(0).colors.at(0)), (std::array<int, 3>{255, 128, 255}));
+}
+
+TEST(ShownMessages, ACloudHasTheColoursOfAnAxisOfItsOwnFrame) {
+  auto cloud = CloudOf(2, "ring", sensor_msgs::PointField::UINT32);
+  Put(cloud, 1, 2, 3.0F);
+  PointScale scale;
+  scale.by = "z";
+  scale.is_in_message = true;
+  EXPECT_EQ(ColorsOfCloud(cloud, scale),
+            (std::vector<std::array<int, 3>>{{255, 0, 0}, {255, 0, 255}}));
 }
 
 TEST(ShownMessages, ManyPointsAreSquaresRatherThanSpheresOrCubes) {
@@ -658,12 +704,18 @@ TEST(ShownMessages, AMapHasItsCellsInColoursOfRviz) {
   EXPECT_DOUBLE_EQ(areas.at(unknown), 0.25);
   EXPECT_THAT(markers[0].points, SizeIs(6 * 5)) << "equal cells are joined";
   ShownStyle costs;
-  costs.is_costmap = true;
+  costs.map_colors = MapColors::kCostmap;
   map.data[3] = 50;
   const auto of_costs = AreasOf(ShownOf(map, costs).at(0));
   EXPECT_THAT(of_costs, SizeIs(2)) << "no cost is transparent";
   EXPECT_DOUBLE_EQ(of_costs.at({255, 0, 255}), 2 * 0.25);
   EXPECT_DOUBLE_EQ(of_costs.at({127, 0, 128}), 0.25);
+  ShownStyle raw;
+  raw.map_colors = MapColors::kRaw;
+  map.data[0] = -2;
+  const auto of_numbers = AreasOf(ShownOf(map, raw).at(0));
+  EXPECT_DOUBLE_EQ(of_numbers.at({100, 100, 100}), 2 * 0.25);
+  EXPECT_DOUBLE_EQ(of_numbers.at({254, 254, 254}), 0.25);
 }
 
 TEST(ShownMessages, AMapOfManyCellsKeepsItsWallsAndItsSize) {

@@ -1,5 +1,6 @@
 #include "server/scene/scene_builder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -23,6 +24,7 @@ namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
 
 class Built {
  public:
@@ -588,6 +590,19 @@ TEST(SceneBuilder, DistinguishesTwoPeople) {
   EXPECT_EQ(built.last().people[1].model->human.model_name, "skeleton_1");
 }
 
+// In ROS the first of them has the names without a prefix.
+TEST(SceneBuilder, CountsPeopleInTheOrderInWhichTheyCome) {
+  Built built;
+  BodySample ben = SampleOf("n_pose", 0), anna = SampleOf("walk", 0);
+  ben.character = 1;
+  built.builder.OnSample(ben);
+  built.builder.OnSample(anna);
+  ASSERT_EQ(built.last().people.size(), 2u);
+  EXPECT_EQ(built.last().people[0].character, 0);
+  EXPECT_EQ(built.last().people[0].model->index, 1);
+  EXPECT_EQ(built.last().people[1].model->index, 0);
+}
+
 TEST(SceneBuilder, NamesLinksAfterPeopleIfTold) {
   SceneOptions options;
   options.takes_names = true;
@@ -697,6 +712,28 @@ TEST(SceneBuilder, TakesTheLengthsFromThePosesUntilTheSourceSendsThem) {
   const PersonModel& sent = *built.last().people.at(0).model;
   EXPECT_TRUE(sent.lengths_are_measured);
   EXPECT_FALSE(sent.lengths_are_of_poses);
+}
+
+TEST(SceneBuilder, SaysThatSegmentsHaveOtherLengthsWithoutNewScaleData) {
+  const kinescope::testing::CapturedLog log;
+  Built built;
+  const auto anna = subject::MakeMotion("walk", 1.6), ben = subject::MakeMotion("walk", 1.9);
+  Character named;
+  named.name = "Anna";
+  named.skeleton = anna->character().skeleton;
+  built.builder.OnCharacter(named);
+  std::int64_t stamp = 0;
+  const auto feed = [&](const subject::Motion& motion, double secs) {
+    for (double at = 0; at < secs; at += 0.02) {
+      BodySample sample = motion.At(at);
+      sample.stamp_nanos = stamp += 20'000'000;
+      built.builder.OnSample(sample);
+    }
+  };
+  feed(*anna, 3);
+  EXPECT_EQ(log.text(), "");
+  feed(*ben, 3);
+  EXPECT_THAT(log.text(), HasSubstr("the segments of 'Anna' have other lengths now, by up to "));
 }
 
 TEST(SceneBuilder, WritesNoFiles) {

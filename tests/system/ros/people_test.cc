@@ -1,5 +1,8 @@
 // Several people over a real master: who comes gets topics, frames and a description of their own,
 // who leaves is no longer published, and the others notice nothing.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gmock/gmock.h>
+#include <kinescope/JointLoadArray.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 #include <urdf/model.h>
@@ -83,8 +86,8 @@ class People : public RosProgram {
 
   void CountJoints(const sensor_msgs::JointState& message, std::size_t person) {
     ++joint_states_[person];
-    const std::string prefix = person == 0 ? "skeleton_c1_head_x" : "skeleton_1_c1_head_x";
-    EXPECT_EQ(message.name.at(0), prefix);
+    const std::string name = person == 0 ? "skeleton_c1_head_x" : "skeleton_1_c1_head_x";
+    EXPECT_EQ(message.name.at(0), name);
   }
 
   static double HeightOf(const std::string& parameter) {  // of the shoulders above the hips
@@ -137,6 +140,39 @@ TEST_F(People, AppearAndLeaveWhileOthersArePublished) {
   // And comes back, under the same names.
   EXPECT_TRUE(SendUntil({0, 1}, [&] { return joint_states_[1] > before[1] + 30; }));
   EXPECT_GT(heads_["skeleton_1_head"], head_before + 30);
+}
+
+// Who comes first has the names without a prefix, whatever MVN's number, and the settings are
+// theirs; no other's while they are away.
+TEST_F(People, SettingsAreOfWhoseTopicsHaveNoPrefix) {
+  std::map<std::string, double> masses;
+  for (const std::string& name : {std::string(), std::string("skeleton_1/")}) {
+    Hear<kinescope_ros::JointLoadArray>(
+        "/kinescope/" + name + "joint_loads",
+        [&masses, name](const auto& loads) { masses[name] = loads.body_mass; });
+  }
+  ASSERT_TRUE(SendUntil({1}, [&] { return masses.count("") != 0; }));
+  ASSERT_TRUE(SendUntil({0, 1}, [&] { return masses.count("skeleton_1/") != 0; }));
+  const auto set_mass = [](double kilograms) {
+    dynamic_reconfigure::Reconfigure order;
+    order.request.config.doubles.emplace_back();
+    order.request.config.doubles.back().name = "mass";
+    order.request.config.doubles.back().value = kilograms;
+    EXPECT_TRUE(ros::service::call("/kinescope/set_parameters", order));
+  };
+  const double usual = masses["skeleton_1/"];
+  set_mass(101);
+  EXPECT_TRUE(SendUntil({0, 1}, [&] { return masses[""] == 101; }));
+  EXPECT_EQ(masses["skeleton_1/"], usual);
+
+  const auto since = std::chrono::steady_clock::now();
+  ASSERT_TRUE(SendUntil({0}, [&] { return std::chrono::steady_clock::now() - since > 2s; }));
+  set_mass(60);
+  EXPECT_THAT(WaitForLine(*bridge_, "not set over ROS: "), ::testing::HasSubstr("is away"));
+  masses.clear();
+  EXPECT_TRUE(SendUntil({0, 1}, [&] { return masses.size() == 2; }));
+  EXPECT_EQ(masses[""], 101);
+  EXPECT_EQ(masses["skeleton_1/"], usual);
 }
 
 }  // namespace

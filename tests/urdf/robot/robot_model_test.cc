@@ -120,6 +120,18 @@ TEST(RobotModel, ReportsIgnoredElements) {
   EXPECT_EQ(robot.joints.at(1).type, RobotJoint::Type::kPlanar);
 }
 
+// As RViz does it.
+TEST(RobotModel, WithoutAMaterialHasTheOneUsedLastInTheLink) {
+  const RobotModel robot = ParseUrdf(R"(<robot name="r">
+    <link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual>
+      <visual><geometry><box size="1 1 1"/></geometry><material name="red"><color rgba="1 0 0 1"/>
+      </material></visual>
+      <visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>)");
+  const std::vector<Visual>& visuals = robot.links.at(0).visuals;
+  EXPECT_FALSE(visuals.at(0).rgba);
+  EXPECT_EQ(visuals.at(2).rgba, Eigen::Vector4d(1, 0, 0, 1));
+}
+
 // A chain as long as any that is read: nothing may need a nested call for each link.
 std::string Chain(std::size_t links) {
   std::string xml = "<robot name='r'><link name='a000000'/>";
