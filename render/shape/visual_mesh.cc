@@ -100,7 +100,10 @@ void VisualReader::AddMesh(const urdf::Visual& visual, int part, VisualMesh& to)
     to.mesh.Paint(first, kPlaceholderColor, part);
     return;
   }
-  to.problems.insert(to.problems.end(), file.remarks.begin(), file.remarks.end());
+  for (const std::string& remark : file.remarks) {
+    const auto end = to.problems.end();
+    if (std::find(to.problems.begin(), end, remark) == end) to.problems.push_back(remark);
+  }
   triangles_ += file.mesh.triangles.size() / 3;
   to.is_closed = to.is_closed && file.is_closed;
   to.mesh.Append(file.mesh, place);
