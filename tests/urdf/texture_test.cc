@@ -63,7 +63,7 @@ Vector4f ColorAt(const Mesh& mesh, float x, float y) {
 
 TEST(Texture, IsSharpOnTwoTrianglesAndTheRightWayUp) {
   Square square;
-  PaintTexture(FourColors(128), square.uv, square.mesh);
+  PaintTexture(FourColors(128), square.uv, kMostTexturedTriangles, square.mesh);
   const Mesh& mesh = square.mesh;
   EXPECT_LE(mesh.triangles.size() / 3, kMostTexturedTriangles);
   EXPECT_GT(mesh.triangles.size() / 3, kMostTexturedTriangles / 2);
@@ -78,7 +78,7 @@ TEST(Texture, IsSharpOnTwoTrianglesAndTheRightWayUp) {
 TEST(Texture, RepeatsAndIsNotDividedFinerThanItsPixels) {
   Square square;
   for (Vector2f& at : square.uv) at = 1.5F * at - Vector2f(1, 1);  // from -1 to 0.5
-  PaintTexture(FourColors(1), square.uv, square.mesh);
+  PaintTexture(FourColors(1), square.uv, kMostTexturedTriangles, square.mesh);
   EXPECT_EQ(square.mesh.triangles.size() / 3, 2U * 5 * 5) << "a diagonal is 4.24 px long";
   EXPECT_EQ(ColorAt(square.mesh, 0.2F, 0.4F), kRed) << "(-0.7, -0.4) is (0.3, 0.6)";
 }
@@ -88,7 +88,7 @@ TEST(Texture, LeavesNoGapsInASurfaceThatIsClosed) {
   ASSERT_TRUE(box.IsClosed());
   std::vector<Vector2f> uv;
   for (const Eigen::Vector3f& at : box.positions) uv.emplace_back(3 * at.x(), at.y() + at.z());
-  PaintTexture(FourColors(100), uv, box);
+  PaintTexture(FourColors(100), uv, kMostTexturedTriangles, box);
   EXPECT_GT(box.triangles.size() / 3, 1000U);
   EXPECT_TRUE(box.IsClosed());
   for (const Eigen::Vector3f& normal : box.normals) EXPECT_NEAR(normal.norm(), 1, 1e-5);
@@ -99,7 +99,7 @@ TEST(Texture, TakesWhatIsNoNumber) {
   square.uv[0].x() = std::nanf("");
   square.uv[1].y() = std::numeric_limits<float>::infinity();
   square.uv[2].x() = 3e38F;
-  PaintTexture(FourColors(3), square.uv, square.mesh);
+  PaintTexture(FourColors(3), square.uv, kMostTexturedTriangles, square.mesh);
   EXPECT_EQ(square.mesh.colors.size(), square.mesh.positions.size());
 }
 
@@ -139,6 +139,21 @@ TEST_F(TextureFileTest, IsReadBesideTheMeshOrInAFolderOfItsPackage) {
   }
   EXPECT_EQ(ReadMeshFile(folder_ / "lab/meshes/square.obj").positions.size(), 4U)
       << "nothing is divided where no textures are wanted";
+}
+
+TEST_F(TextureFileTest, OfManyMeshesHasNoMoreTrianglesThanOfOne) {
+  std::ofstream(folder_ / "lab/meshes/wood.png") << "four colours";
+  Read("wood.png");
+  std::ofstream obj(folder_ / "lab/meshes/many.obj");
+  obj << "mtllib square.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  for (int i = 0; i < 100; ++i) {
+    obj << "o part" << i << "\nusemtl wood\nv 0 0 " << i << "\nv 1 0 " << i << "\nv 1 1 " << i
+        << "\nv 0 1 " << i << "\nf -4/1 -3/2 -2/3\nf -4/1 -2/3 -1/4\n";
+  }
+  obj.close();
+  const Mesh mesh = ReadMeshFile(folder_ / "lab/meshes/many.obj", ColladaUp::kIgnored, &reading_);
+  EXPECT_LE(mesh.triangles.size() / 3, kMostTexturedTriangles);
+  EXPECT_GT(mesh.triangles.size() / 3, kMostTexturedTriangles / 2);
 }
 
 TEST_F(TextureFileTest, ThatCannotBeReadIsNamedAndTheMeshIsDrawn) {

@@ -269,13 +269,8 @@ class Collector {
  public:
   Collector(const aiScene& scene, const std::string& extension, TextureSource& textures)
       : scene_(scene), is_linear_(extension == ".glb"), has_colors_(extension != ".stl") {
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-      const aiMesh& mesh = *scene.mMeshes[i];
-      meshes_.push_back(ToMesh(mesh));
-      if (const Texture* const texture = textures.Find(mesh)) {
-        PaintTexture(*texture, PlacesOn(mesh), meshes_.back());
-      }
-    }
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) meshes_.push_back(ToMesh(*scene.mMeshes[i]));
+    Paint(textures);
   }
 
   Mesh Collect(const Eigen::Affine3d& world_from_root) {
@@ -301,6 +296,28 @@ class Collector {
   }
 
  private:
+  // What several nodes show counts as often.
+  void Paint(TextureSource& textures) {
+    std::vector<std::size_t> uses(meshes_.size());
+    std::vector<const aiNode*> open = {scene_.mRootNode};
+    while (!open.empty()) {
+      const aiNode& node = *open.back();
+      open.pop_back();
+      for (unsigned i = 0; i < node.mNumMeshes; ++i) ++uses.at(node.mMeshes[i]);
+      open.insert(open.end(), node.mChildren, node.mChildren + node.mNumChildren);
+    }
+    std::size_t textured = 0;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      if (textures.Find(*scene_.mMeshes[i]) != nullptr) textured += uses[i];
+    }
+    for (std::size_t i = 0; i < meshes_.size() && textured > 0; ++i) {
+      const aiMesh& mesh = *scene_.mMeshes[i];
+      const Texture* const texture = textures.Find(mesh);
+      if (texture == nullptr) continue;
+      PaintTexture(*texture, PlacesOn(mesh), kMostTexturedTriangles / textured, meshes_[i]);
+    }
+  }
+
   void Add(unsigned index, const Eigen::Affine3d& place) {
     const Mesh& mesh = meshes_.at(index);
     if (!(std::abs(place.linear().determinant()) > 1e-18) || !place.matrix().allFinite()) {

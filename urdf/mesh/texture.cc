@@ -112,12 +112,13 @@ class Divider {
 
 }  // namespace
 
-void PaintTexture(const Texture& texture, const std::vector<Vector2f>& uv, Mesh& mesh) {
+void PaintTexture(const Texture& texture, const std::vector<Vector2f>& uv,
+                  std::size_t most_triangles, Mesh& mesh) {
   const std::size_t triangles = mesh.triangles.size() / 3;
   if (triangles == 0) return;
   const double longest = LongestEdgePx(texture, uv, mesh);
-  const double most = std::floor(
-      std::sqrt(static_cast<double>(kMostTexturedTriangles) / static_cast<double>(triangles)));
+  const double most =
+      std::floor(std::sqrt(static_cast<double>(most_triangles) / static_cast<double>(triangles)));
   const int parts = static_cast<int>(std::clamp(std::ceil(longest), 1.0, std::max(1.0, most)));
   Divider divided(mesh, uv, parts);
   if (parts > 1) {

@@ -25,14 +25,16 @@ struct TextureReading {
   std::vector<std::string> problems = {};  // "its texture 'wood.png' is not drawn: <why>"
 };
 
-/// Triangles of a mesh with a texture, at most: fine enough for its picture, few enough for a page.
+/// Triangles with textures of a file, at most, unless it has more itself: fine enough for its
+/// pictures, few enough for a page.
 inline constexpr std::size_t kMostTexturedTriangles = 20'000;
 
 /// Gives each vertex the colour of the texture about it. Where triangles are larger than the
 /// texture's pixels they are divided first, all alike, so that no gaps open between them: a picture
-/// on a few triangles is as sharp as kMostTexturedTriangles allow.
+/// on a few triangles is as sharp as `most_triangles` allow.
 /// @param uv  one per vertex: (0, 0) is the lower left corner of the texture, which repeats
 /// @pre mesh.parts is empty
-void PaintTexture(const Texture& texture, const std::vector<Eigen::Vector2f>& uv, Mesh& mesh);
+void PaintTexture(const Texture& texture, const std::vector<Eigen::Vector2f>& uv,
+                  std::size_t most_triangles, Mesh& mesh);
 
 }  // namespace kinescope::urdf
