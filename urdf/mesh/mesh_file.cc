@@ -240,7 +240,7 @@ class TextureSource {
   fs::path PathOf(const std::string& name) const {
     std::error_code error;
     const fs::path package = fs::weakly_canonical(folder_, error).parent_path();
-    const fs::path path = fs::weakly_canonical(folder_ / name, error);
+    fs::path path = fs::weakly_canonical(folder_ / name, error);
     const bool is_there =
         !folder_.empty() && !error && !fs::path(name).is_absolute() &&
         std::mismatch(package.begin(), package.end(), path.begin(), path.end()).first ==
