@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "urdf/kinematics.h"
@@ -112,12 +113,14 @@ void PersonTracker::WarnOfOtherLengths(const urdf::Skeleton& measured) const {
     most = std::max(most, std::abs(measured.origin_in_parent[i].norm() -
                                    person_.character.skeleton->origin_in_parent[i].norm()));
   }
+  const Character& character = person_.character;
   spdlog::warn(
-      "the segments of '{}' have other lengths now, by up to {:.0f} cm, and no scale data came "
-      "with "
-      "them: body and loads are still those of before; if another person wears the suit, let MVN "
-      "stream scale data",
-      person_.character.name, 100 * most);
+      "the segments of {} have other lengths now, by up to {:.0f} cm, and no scale data came with "
+      "them: body and loads are those of before; let MVN stream scale data if another person wears "
+      "the suit",
+      character.name.empty() ? "character " + std::to_string(character.id)
+                             : "'" + character.name + "'",
+      100 * most);
 }
 
 // Without leg sensors MVN keeps the pelvis near z = 0 and hangs straight legs below it, which never
