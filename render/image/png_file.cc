@@ -199,7 +199,7 @@ Image ReadPng(const std::filesystem::path& path) {
 }
 
 PngPixels ReadPngPixels(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::uint64_t kMostPixels = 16'000'000;
+  constexpr std::uint64_t kMostPixels = 1U << 24U;  // 4096 x 4096
   try {
     PngInMemory png(bytes, size);
     const png_image& header = png.header();

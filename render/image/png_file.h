@@ -33,8 +33,8 @@ struct PngPixels {
 };
 
 /// Of untrusted bytes. Grey of 16 bits, as depth cameras send it, keeps its numbers.
-/// @throws std::runtime_error with the reason: no PNG, damaged, or more than 16,384 px a side or 16
-/// million in all
+/// @throws std::runtime_error with the reason: no PNG, damaged, or more than 16,384 px a side or
+/// 4096 x 4096 in all
 PngPixels ReadPngPixels(const std::uint8_t* bytes, std::size_t size);
 
 /// The tEXt, zTXt and iTXt chunks before the pixels. @throws std::runtime_error with the path and

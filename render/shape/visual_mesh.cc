@@ -49,9 +49,14 @@ const VisualReader::File& VisualReader::Read(const std::string& uri) {
   } else {
     const auto& path = std::get<std::filesystem::path>(found);
     try {
+      // The first ones have most, however many follow.
+      constexpr std::size_t kShare = 5, kLeast = 1'000;
       urdf::TextureReading textures{DecodeTexture};
+      textures.most_triangles =
+          std::min(textures.most_triangles, std::max(textured_left_ / kShare, kLeast));
       file->mesh = urdf::ReadMeshFile(path, urdf::ColladaUp::kIgnored, &textures);
       file->is_closed = file->mesh.IsClosed();
+      textured_left_ -= std::min(textured_left_, textures.triangles);
       for (const std::string& problem : textures.problems) {
         file->remarks.push_back("mesh " + uri + ": " + problem);
       }

@@ -73,6 +73,7 @@ class VisualReader {
   const std::shared_ptr<const MeshFiles> person_files_;
   std::map<std::string, std::unique_ptr<const File>> files_;  // by URI
   std::size_t triangles_ = 0;                                 // of all added visuals
+  std::size_t textured_left_ = 100'000;                       // triangles for pictures
 };
 
 }  // namespace kinescope::render

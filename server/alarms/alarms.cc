@@ -117,7 +117,10 @@ void Alarms::Meet(const PersonState& person) {
   known->second.name = person.name;
   if (!is_new && known->second.stamp_nanos == person.sample.stamp_nanos) return;
   known->second.stamp_nanos = person.sample.stamp_nanos;
-  if (!is_new) known->second.period_nanos = newest_.made_nanos - known->second.seen_nanos;
+  if (!is_new) {
+    const std::int64_t interval = newest_.made_nanos - known->second.seen_nanos;
+    known->second.period_nanos = std::max(interval, known->second.period_nanos - interval);
+  }
   known->second.seen_nanos = newest_.made_nanos;
 }
 

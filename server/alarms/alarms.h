@@ -80,9 +80,11 @@ class Alarms {
  private:
   struct Person {
     std::string name;
-    std::int64_t stamp_nanos = 0;   // of the newest sample
-    std::int64_t seen_nanos = 0;    // made_nanos of the state that brought it
-    std::int64_t period_nanos = 0;  // between that state and the one with the sample before
+    std::int64_t stamp_nanos = 0;  // of the newest sample
+    std::int64_t seen_nanos = 0;   // made_nanos of the state that brought it
+    /// Between that state and the one with the sample before; in a burst that before it, less what
+    /// has passed since.
+    std::int64_t period_nanos = 0;
   };
   using Key = std::pair<std::size_t, int>;  // place of the rule; character, or the whole stream
   struct Watched {

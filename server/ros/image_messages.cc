@@ -57,7 +57,7 @@ bool BeginsWith(const CameraImage& image, std::initializer_list<std::uint8_t> be
 // Of the size that a PNG begins with: those with more pixels are not unpacked
 // (render/image/png_file.cc).
 std::string WhyTooLarge(const CameraImage& png) {
-  constexpr std::uint64_t kMostPixels = 16'000'000;
+  constexpr std::uint64_t kMostPixels = 1U << 24U;  // 4096 x 4096
   constexpr std::size_t kWidthAt = 16, kHeightAt = 20, kSizeOfNumber = 4;
   if (png.size < kHeightAt + kSizeOfNumber) return "";
   const auto number_at = [&](std::size_t place) {

@@ -83,6 +83,31 @@ TEST(Texture, RepeatsAndIsNotDividedFinerThanItsPixels) {
   EXPECT_EQ(ColorAt(square.mesh, 0.2F, 0.4F), kRed) << "(-0.7, -0.4) is (0.3, 0.6)";
 }
 
+// One long triangle among many short ones: these are as sharp as without it.
+TEST(Texture, IsAsSharpAsTheTrianglesAtEachPlace) {
+  constexpr int kSide = 120;
+  Mesh grid;
+  std::vector<Vector2f> uv;
+  for (int y = 0; y <= kSide; ++y) {
+    for (int x = 0; x <= kSide; ++x) {
+      uv.emplace_back(static_cast<float>(x) / kSide, static_cast<float>(y) / kSide);
+      grid.AddVertex({uv.back().x(), uv.back().y(), 0}, Eigen::Vector3f::UnitZ());
+    }
+  }
+  const auto at = [](int x, int y) { return static_cast<std::uint32_t>(y * (kSide + 1) + x); };
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      grid.AddTriangle(at(x, y), at(x + 1, y), at(x + 1, y + 1));
+      grid.AddTriangle(at(x, y), at(x + 1, y + 1), at(x, y + 1));
+    }
+  }
+  grid.AddTriangle(at(0, 0), at(kSide, 0), at(kSide, kSide));
+  PaintTexture(FourColors(256), uv, kMostTexturedTriangles, grid);
+  EXPECT_EQ(grid.triangles.size() / 3, 2U * kSide * kSide + 1) << "too many to be divided";
+  EXPECT_EQ(ColorAt(grid, 0.4F, 0.6F), kRed);
+  EXPECT_EQ(ColorAt(grid, 0.6F, 0.6F), kGreen);
+}
+
 TEST(Texture, LeavesNoGapsInASurfaceThatIsClosed) {
   Mesh box = BoxMesh({1, 1, 1}, {0, 0, 0});
   ASSERT_TRUE(box.IsClosed());
@@ -111,7 +136,8 @@ class TextureFileTest : public ::testing::Test {
   }
 
   Mesh Read(const std::string& texture) {
-    std::ofstream(folder_ / "lab/meshes/square.mtl") << "newmtl wood\nmap_Kd " << texture << "\n";
+    std::ofstream(folder_ / "lab/meshes/square.mtl")
+        << "newmtl wood\nKd 1 1 1\nmap_Kd " << texture << "\n";
     std::ofstream(folder_ / "lab/meshes/square.obj")
         << "mtllib square.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
            "vt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
@@ -131,7 +157,10 @@ class TextureFileTest : public ::testing::Test {
 TEST_F(TextureFileTest, IsReadBesideTheMeshOrInAFolderOfItsPackage) {
   std::ofstream(folder_ / "lab/meshes/wood.png") << "four colours";
   std::ofstream(folder_ / "lab/textures/wood.png") << "four colours";
-  for (const char* name : {"wood.png", "../textures/wood.png"}) {
+  const std::string whole =
+      "file://" + std::filesystem::path(folder_ / "lab/meshes/wood.png").string();
+  for (const std::string& name : {std::string("wood.png"), std::string("../textures/wood.png"),
+                                  std::string("..\\textures\\wood.png"), whole}) {
     const Mesh mesh = Read(name);
     EXPECT_THAT(reading_.problems, IsEmpty()) << name;
     EXPECT_EQ(ColorAt(mesh, 0.25F, 0.75F), kRed) << name;
@@ -139,6 +168,13 @@ TEST_F(TextureFileTest, IsReadBesideTheMeshOrInAFolderOfItsPackage) {
   }
   EXPECT_EQ(ReadMeshFile(folder_ / "lab/meshes/square.obj").positions.size(), 4U)
       << "nothing is divided where no textures are wanted";
+}
+
+TEST_F(TextureFileTest, IsTintedByTheColourOfItsMaterial) {
+  std::ofstream(folder_ / "lab/meshes/wood.png") << "four colours";
+  const Mesh mesh = Read("wood.png\nKd 0.5 1 0.25");
+  EXPECT_EQ(ColorAt(mesh, 0.25F, 0.75F), Vector4f(0.5F, 0, 0, 1));
+  EXPECT_EQ(ColorAt(mesh, 0.75F, 0.25F), Vector4f(0.5F, 1, 0.25F, 1));
 }
 
 TEST_F(TextureFileTest, OfManyMeshesHasNoMoreTrianglesThanOfOne) {

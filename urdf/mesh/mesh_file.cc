@@ -206,6 +206,8 @@ class TextureSource {
   TextureSource(const aiScene& scene, const fs::path& folder, TextureReading* reading)
       : scene_(scene), folder_(folder), reading_(reading) {}
 
+  std::size_t most_triangles() const { return reading_->most_triangles; }
+  void Count(std::size_t triangles) { reading_->triangles += triangles; }
   /// Null: the mesh has none, or one that cannot be read.
   const Texture* Find(const aiMesh& mesh) {
     if (reading_ == nullptr || mesh.mMaterialIndex >= scene_.mNumMaterials) return nullptr;
@@ -238,11 +240,14 @@ class TextureSource {
 
   // Packages of robots have a folder for meshes and one for textures.
   fs::path PathOf(const std::string& name) const {
-    std::error_code error;
-    const fs::path package = fs::weakly_canonical(folder_, error).parent_path();
-    fs::path path = fs::weakly_canonical(folder_ / name, error);
+    std::string text = name;
+    std::replace(text.begin(), text.end(), '\\', '/');
+    constexpr std::string_view kFile = "file://";
+    if (text.compare(0, kFile.size(), kFile) == 0) text.erase(0, kFile.size());
+    const fs::path package = folder_.lexically_normal().parent_path();
+    fs::path path = (folder_ / text).lexically_normal();  // an absolute one is as it is
     const bool is_there =
-        !folder_.empty() && !error && !fs::path(name).is_absolute() &&
+        !folder_.empty() &&
         std::mismatch(package.begin(), package.end(), path.begin(), path.end()).first ==
             package.end();
     if (is_there) return path;
@@ -268,7 +273,10 @@ std::vector<Eigen::Vector2f> PlacesOn(const aiMesh& mesh) {
 class Collector {
  public:
   Collector(const aiScene& scene, const std::string& extension, TextureSource& textures)
-      : scene_(scene), is_linear_(extension == ".glb"), has_colors_(extension != ".stl") {
+      : scene_(scene),
+        is_linear_(extension == ".glb"),
+        is_collada_(extension == ".dae"),
+        has_colors_(extension != ".stl") {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) meshes_.push_back(ToMesh(*scene.mMeshes[i]));
     Paint(textures);
   }
@@ -314,8 +322,26 @@ class Collector {
       const aiMesh& mesh = *scene_.mMeshes[i];
       const Texture* const texture = textures.Find(mesh);
       if (texture == nullptr) continue;
-      PaintTexture(*texture, PlacesOn(mesh), kMostTexturedTriangles / textured, meshes_[i]);
+      PaintTexture(*texture, PlacesOn(mesh), textures.most_triangles() / textured, meshes_[i]);
+      textures.Count(uses[i] * meshes_[i].triangles.size() / 3);
+      if (const auto tint = TintOf(mesh)) {
+        for (Eigen::Vector4f& color : meshes_[i].colors) color = color.cwiseProduct(*tint);
+      }
     }
+  }
+
+  // What a picture is multiplied with. COLLADA has a colour or a picture.
+  std::optional<Eigen::Vector4f> TintOf(const aiMesh& mesh) const {
+    const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
+    aiColor4D color;
+    if (is_collada_ || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) {
+      return std::nullopt;
+    }
+    Eigen::Vector4f tint(color.r, color.g, color.b, 1);
+    if (!tint.allFinite()) return std::nullopt;
+    tint = tint.cwiseMax(0.0f).cwiseMin(1.0f);
+    for (int i = 0; i < 3 && is_linear_; ++i) tint[i] = FromLinear(tint[i]);
+    return tint;
   }
 
   void Add(unsigned index, const Eigen::Affine3d& place) {
@@ -337,7 +363,7 @@ class Collector {
   }
 
   const aiScene& scene_;
-  const bool is_linear_, has_colors_;
+  const bool is_linear_, is_collada_, has_colors_;
   bool any_color_ = false;
   std::vector<Mesh> meshes_;
   Mesh mesh_;

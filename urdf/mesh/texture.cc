@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace kinescope::urdf {
 namespace {
@@ -23,7 +25,7 @@ Vector4f ColorAbout(const Texture& texture, const Vector2f& uv, double side) {
   if (!uv.allFinite()) return Vector4f::Ones();
   const double x = static_cast<double>(uv.x()) * texture.width;
   const double y = (1 - static_cast<double>(uv.y())) * texture.height;
-  const int count = std::clamp(static_cast<int>(side), 1, kMostSamples);
+  const int count = static_cast<int>(std::clamp(side, 1.0, 1.0 * kMostSamples));
   std::array<int, 3> sum = {};
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < count; ++k) {
@@ -45,17 +47,31 @@ Vector4f ColorAbout(const Texture& texture, const Vector2f& uv, double side) {
   return color;
 }
 
-double LongestEdgePx(const Texture& texture, const std::vector<Vector2f>& uv, const Mesh& mesh) {
-  double longest = 0;
+// Of each triangle the length of its longest edge, px of the texture.
+std::vector<double> EdgesPx(const Texture& texture, const std::vector<Vector2f>& uv,
+                            const Mesh& mesh) {
+  std::vector<double> edges;
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector2f edge = uv[mesh.triangles[i + (k + 1) % 3]] - uv[mesh.triangles[i + k]];
       const double px = std::hypot(static_cast<double>(edge.x()) * texture.width,
                                    static_cast<double>(edge.y()) * texture.height);
       if (std::isfinite(px)) longest = std::max(longest, px);
     }
+    edges.push_back(longest);
   }
-  return longest;
+  return edges;
+}
+
+// Of each vertex the least of its triangles.
+std::vector<double> SidesPx(const std::vector<double>& edges, const Mesh& mesh) {
+  std::vector<double> sides(mesh.positions.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    double& side = sides[mesh.triangles[i]];
+    side = std::min(side, edges[i / 3]);
+  }
+  return sides;
 }
 
 // A triangle as parts * parts ones, whose corners on an edge are the same from both of its sides.
@@ -64,13 +80,15 @@ class Divider {
   Divider(const Mesh& from, const std::vector<Vector2f>& uv, int parts)
       : from_(from), uv_(uv), parts_(parts) {}
 
-  void Add(std::size_t first) {
+  // @param edge_px  the longest one, in the texture
+  void Add(std::size_t first, double edge_px) {
     std::array<std::uint32_t, 3> corners;
     std::copy_n(from_.triangles.begin() + static_cast<std::ptrdiff_t>(first), 3, corners.begin());
     const auto begin = static_cast<std::uint32_t>(to.positions.size());
     for (int row = 0; row <= parts_; ++row) {
       for (int column = 0; column <= row; ++column) {
         AddPoint(corners, parts_ - row, row - column, column);
+        sides_px.push_back(edge_px / parts_);
       }
     }
     const auto at = [&](int row, int column) {
@@ -87,6 +105,7 @@ class Divider {
 
   Mesh to;
   std::vector<Vector2f> uv_to;
+  std::vector<double> sides_px;  // of each vertex
 
  private:
   void AddPoint(const std::array<std::uint32_t, 3>& corners, int a, int b, int c) {
@@ -116,19 +135,22 @@ void PaintTexture(const Texture& texture, const std::vector<Vector2f>& uv,
                   std::size_t most_triangles, Mesh& mesh) {
   const std::size_t triangles = mesh.triangles.size() / 3;
   if (triangles == 0) return;
-  const double longest = LongestEdgePx(texture, uv, mesh);
+  const std::vector<double> edges = EdgesPx(texture, uv, mesh);
+  const double longest = *std::max_element(edges.begin(), edges.end());
   const double most =
       std::floor(std::sqrt(static_cast<double>(most_triangles) / static_cast<double>(triangles)));
   const int parts = static_cast<int>(std::clamp(std::ceil(longest), 1.0, std::max(1.0, most)));
   Divider divided(mesh, uv, parts);
+  std::vector<double> sides = parts > 1 ? std::vector<double>() : SidesPx(edges, mesh);
   if (parts > 1) {
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) divided.Add(i);
+    for (std::size_t i = 0; i < triangles; ++i) divided.Add(3 * i, edges[i]);
     mesh = std::move(divided.to);
+    sides = std::move(divided.sides_px);
   }
   const std::vector<Vector2f>& places = parts > 1 ? divided.uv_to : uv;
   mesh.colors.clear();
-  for (const Vector2f& place : places) {
-    mesh.colors.push_back(ColorAbout(texture, place, longest / parts));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    mesh.colors.push_back(ColorAbout(texture, places[i], sides[i]));
   }
 }
 

@@ -25,7 +25,9 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
                   const render::Camera& camera, const std::vector<std::string>& problems) {
   if (!*options.json) {
     const std::string boxes =
-        problems.empty() ? "" : fmt::format(", {} mesh files missing or rejected", problems.size());
+        problems.empty()
+            ? ""
+            : fmt::format(", {} mesh files or textures missing or rejected", problems.size());
     Print("{}: robot '{}', {} links{}\n", *options.out, robot.name, robot.model->links.size(),
           boxes);
     return;

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -48,19 +50,30 @@ bool IsLinkStates(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>();
 }
 
-struct Appearances {
-  std::uint64_t count = 0;
-  std::int64_t first_nanos = 0;
-  std::int64_t last_nanos = 0;
-
+// When something appeared, as far as its rate needs.
+class Appearances {
+ public:
   void Add(std::int64_t now) {
-    if (count++ == 0) first_nanos = now;
-    last_nanos = now;
+    constexpr std::size_t kMost = 4096;
+    if (last_nanos_ && now > *last_nanos_ && steps_.size() < kMost) {
+      steps_.push_back(now - *last_nanos_);
+    }
+    last_nanos_ = now;
   }
-  double rate_hz() const {  // 0: unknown
-    if (count < 2 || last_nanos <= first_nanos) return 0;
-    return NearWhole(static_cast<double>(count - 1) / Secs(last_nanos - first_nanos));
+  // Of the steps that are no pause; 0: unknown.
+  double rate_hz() const {
+    if (steps_.empty()) return 0;
+    std::vector<std::int64_t> sorted = steps_;
+    std::sort(sorted.begin(), sorted.end());
+    const std::int64_t longest = std::max(kNanosPerSecond, 4 * sorted[sorted.size() / 2]);
+    const auto end = std::upper_bound(sorted.begin(), sorted.end(), longest);
+    const std::int64_t sum = std::accumulate(sorted.begin(), end, std::int64_t{0});
+    return NearWhole(static_cast<double>(end - sorted.begin()) / Secs(sum));
   }
+
+ private:
+  std::vector<std::int64_t> steps_;
+  std::optional<std::int64_t> last_nanos_;
 };
 
 // Passes everything on, and knows the times of the newest samples.

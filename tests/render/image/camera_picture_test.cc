@@ -181,7 +181,7 @@ TEST(CameraPicture, OfADamagedPngIsRefused) {
   const std::array<std::uint8_t, 4> sum = {0x07, 0x51, 0x49, 0xc6};
   std::copy(sum.begin(), sum.end(), large.begin() + 29);
   EXPECT_EQ(DecodeCameraImage(ImageOf("png", 0, 1, large), 80, 80).error(),
-            "PNG: 8192 x 8192 px are more than 16000000");
+            "PNG: 8192 x 8192 px are more than 16777216");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class TexturedVisual : public ::testing::Test {
  protected:
   // Two visuals of one mesh, a square of 1 m.
   VisualMesh Read(const std::string& texture) {
-    std::ofstream(folder_ / "square.mtl") << "newmtl m\nmap_Kd " << texture << "\n";
+    std::ofstream(folder_ / "square.mtl") << "newmtl m\nKd 1 1 1\nmap_Kd " << texture << "\n";
     std::ofstream(folder_ / "square.obj")
         << "mtllib square.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
            "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";

@@ -89,7 +89,7 @@ TEST(ImageMessages, MayBeJpegOrPngAndNothingElseThatIsCompressed) {
   message.data.resize(16);
   for (const std::uint8_t byte : {0, 0, 0x1f, 0x40, 0, 0, 0x17, 0x70}) message.data.push_back(byte);
   EXPECT_EQ(Read(message).error().text,
-            "a PNG of 8000 x 6000 px; at most 16000000 px are unpacked");
+            "a PNG of 8000 x 6000 px; at most 16777216 px are unpacked");
   message.data[18] = 0x0a;
   EXPECT_TRUE(Read(message));
   message.data.resize(6);

@@ -393,6 +393,16 @@ TEST_F(BagTest, HasTheRateOfTheHeadersAndNotOfTheRecorder) {
   EXPECT_EQ(recorded.rate_hz, 100);
 }
 
+TEST_F(BagTest, HasTheRateWithoutThePauses) {
+  const ReadPeople recorded = ReadBag(Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 100; ++n) {
+      const int at = n < 50 ? n : n + 200;
+      out.write("/tf", RosTimeOf(kBagStart + at * kBagPeriod), TransformsOf(PersonAt(at)));
+    }
+  }));
+  EXPECT_EQ(recorded.rate_hz, 100);
+}
+
 TEST_F(BagTest, FindsAPersonWhoAppearsLater) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 30; ++n) {
