@@ -293,7 +293,7 @@ TEST_F(UrdfCommand, RendersAnyRobotInAnyPose) {
   fs::remove(folder_ / "robot/meshes/hand.stl");
   const ProgramResult missing = draw("d.png", {});
   EXPECT_EQ(missing.exit_code, 0) << missing.err;
-  EXPECT_THAT(missing.out, HasSubstr("1 mesh files missing or rejected"));
+  EXPECT_THAT(missing.out, HasSubstr("1 mesh files or textures missing or rejected"));
   EXPECT_THAT(missing.err, HasSubstr("hand.stl"));
 }
 
