@@ -130,7 +130,7 @@ struct ShownStyle {
   bool has_arrows = false;          // of poses in an array or along a path: solid arrows
   // Of points, if they are few: spheres or cubes, not squares that face the viewer.
   bool has_spheres = false, has_cubes = false;
-  std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, every n-th is shown
+  std::size_t most_points = kUsualCloudPoints;  // of a cloud or scan with more, as many throughout
   MapColors map_colors = MapColors::kMap;
   bool has_updates = false;  // of a map: with those that come on "<topic>_updates"
   bool is_behind = false;    // of a map: below all others

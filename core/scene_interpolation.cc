@@ -56,7 +56,12 @@ void MoveTowards(PersonState& person, const PersonState& after, double t) {
   }
 }
 
-}  // namespace
+// Null: they are not in the scene.
+const PersonState* FindPerson(const SceneState& scene, int character) {
+  const auto found = std::find_if(scene.people.begin(), scene.people.end(),
+                                  [&](const PersonState& p) { return p.character == character; });
+  return found == scene.people.end() ? nullptr : &*found;
+}
 
 // Each person's clock may be another one, so it is that of the person whose sample `before` has.
 std::int64_t TimeCodeBetween(const SceneState& before, const SceneState& after, double t) {
@@ -64,15 +69,15 @@ std::int64_t TimeCodeBetween(const SceneState& before, const SceneState& after, 
     const BodySample& sample = person.sample;
     const bool is_newest =
         sample.counter == before.counter && sample.time_code_millis == before.time_code_millis;
-    const auto match =
-        std::find_if(after.people.begin(), after.people.end(),
-                     [&](const PersonState& p) { return p.character == person.character; });
-    if (!is_newest || match == after.people.end()) continue;
+    const PersonState* const match = FindPerson(after, person.character);
+    if (!is_newest || match == nullptr) continue;
     return std::llround((1 - t) * static_cast<double>(sample.time_code_millis) +
                         t * static_cast<double>(match->sample.time_code_millis));
   }
   return before.time_code_millis;
 }
+
+}  // namespace
 
 SceneState Interpolate(const SceneState& before, const SceneState& after,
                        std::int64_t stamp_nanos) {
@@ -84,10 +89,8 @@ SceneState Interpolate(const SceneState& before, const SceneState& after,
   scene.stamp_nanos = stamp_nanos;
   scene.time_code_millis = TimeCodeBetween(before, after, t);
   for (PersonState& person : scene.people) {
-    const auto match =
-        std::find_if(after.people.begin(), after.people.end(),
-                     [&](const PersonState& p) { return p.character == person.character; });
-    if (match != after.people.end()) MoveTowards(person, *match, t);
+    const PersonState* const match = FindPerson(after, person.character);
+    if (match != nullptr) MoveTowards(person, *match, t);
   }
   for (TrackedObject& object : scene.objects) {
     const auto match =

@@ -82,7 +82,7 @@ Taken<ShownMarkers> ToMarkers(const geometry_msgs::AccelStamped& message,
 /// have.
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::Range& message, const ShownStyle& style = {});
 /// Points of 1 cm, coloured by intensity where the scan has it. By an axis of the scene only once
-/// they have a place in it (marker_input.h). Of more than the style has, every n-th is shown: a
+/// they have a place in it (marker_input.h). Of more than the style has, as many are shown: a
 /// page gets 20 bytes for each, up to ten times a second.
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style = {});
 /// Points of 1 cm: by `rgb` or `rgba`, else by `intensity`, else white; with a scale by its field,

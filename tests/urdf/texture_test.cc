@@ -170,6 +170,18 @@ TEST_F(TextureFileTest, IsReadBesideTheMeshOrInAFolderOfItsPackage) {
       << "nothing is divided where no textures are wanted";
 }
 
+TEST_F(TextureFileTest, IsDrawnOnTheMeshesThatHaveCoordinatesForIt) {
+  std::ofstream(folder_ / "lab/meshes/wood.png") << "four colours";
+  Read("wood.png");
+  std::ofstream(folder_ / "lab/meshes/two.obj")
+      << "mtllib square.mtl\no bare\nusemtl wood\nv 0 0 9\nv 1 0 9\nv 1 1 9\nf 1 2 3\n"
+         "o square\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+         "vt 0 1\nf 4/1 5/2 6/3\nf 4/1 6/3 7/4\n";
+  const Mesh mesh = ReadMeshFile(folder_ / "lab/meshes/two.obj", ColladaUp::kIgnored, &reading_);
+  EXPECT_THAT(reading_.problems, ElementsAre(HasSubstr("no texture coordinates")));
+  EXPECT_EQ(ColorAt(mesh, 0.25F, 0.75F), kRed);
+}
+
 TEST_F(TextureFileTest, IsTintedByTheColourOfItsMaterial) {
   std::ofstream(folder_ / "lab/meshes/wood.png") << "four colours";
   const Mesh mesh = Read("wood.png\nKd 0.5 1 0.25");

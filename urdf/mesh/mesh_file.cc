@@ -208,26 +208,32 @@ class TextureSource {
 
   std::size_t most_triangles() const { return reading_->most_triangles; }
   void Count(std::size_t triangles) { reading_->triangles += triangles; }
-  /// Null: the mesh has none, or one that cannot be read.
+  /// Null: the mesh has none, or one that cannot be drawn on it, which is told.
   const Texture* Find(const aiMesh& mesh) {
     if (reading_ == nullptr || mesh.mMaterialIndex >= scene_.mNumMaterials) return nullptr;
     const aiMaterial& material = *scene_.mMaterials[mesh.mMaterialIndex];
     aiString name;
     if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS) return nullptr;
+    if (mesh.mTextureCoords[0] == nullptr) {
+      Tell(name.C_Str(), "the mesh has no texture coordinates");
+      return nullptr;
+    }
     const auto [known, is_new] = textures_.try_emplace(name.C_Str());
     if (is_new) {
       try {
-        if (mesh.mTextureCoords[0] == nullptr) throw Fault("the mesh has no texture coordinates");
         known->second = Read(known->first);
       } catch (const std::exception& error) {
-        reading_->problems.push_back("its texture '" + known->first +
-                                     "' is not drawn: " + error.what());
+        Tell(known->first, error.what());
       }
     }
-    return known->second && mesh.mTextureCoords[0] != nullptr ? &*known->second : nullptr;
+    return known->second ? &*known->second : nullptr;
   }
 
  private:
+  void Tell(const std::string& name, const std::string& why) {
+    reading_->problems.push_back("its texture '" + name + "' is not drawn: " + why);
+  }
+
   Texture Read(const std::string& name) const {
     if (const aiTexture* const inside = scene_.GetEmbeddedTexture(name.c_str())) {
       if (inside->mHeight != 0) throw Fault("it is neither PNG nor JPEG");
@@ -314,15 +320,16 @@ class Collector {
       for (unsigned i = 0; i < node.mNumMeshes; ++i) ++uses.at(node.mMeshes[i]);
       open.insert(open.end(), node.mChildren, node.mChildren + node.mNumChildren);
     }
+    std::vector<const Texture*> found;
     std::size_t textured = 0;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      if (textures.Find(*scene_.mMeshes[i]) != nullptr) textured += uses[i];
+      found.push_back(textures.Find(*scene_.mMeshes[i]));
+      if (found[i] != nullptr) textured += uses[i];
     }
     for (std::size_t i = 0; i < meshes_.size() && textured > 0; ++i) {
+      if (found[i] == nullptr) continue;
       const aiMesh& mesh = *scene_.mMeshes[i];
-      const Texture* const texture = textures.Find(mesh);
-      if (texture == nullptr) continue;
-      PaintTexture(*texture, PlacesOn(mesh), textures.most_triangles() / textured, meshes_[i]);
+      PaintTexture(*found[i], PlacesOn(mesh), textures.most_triangles() / textured, meshes_[i]);
       textures.Count(uses[i] * meshes_[i].triangles.size() / 3);
       if (const auto tint = TintOf(mesh)) {
         for (Eigen::Vector4f& color : meshes_[i].colors) color = color.cwiseProduct(*tint);
