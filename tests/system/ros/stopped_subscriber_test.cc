@@ -102,6 +102,8 @@ TEST_F(StoppedSubscriber, CostsTheBridgeNoMemoryAndOthersNoSample) {
       markers(*node, "/kinescope/markers", "visualization_msgs/MarkerArray");
 
   const auto count = [&] { return std::set<ros::Time>(stamps.begin(), stamps.end()).size(); };
+  // Until the first suit has been silent for 0.1 s, another at its address is not taken for it.
+  WaitForLine(*bridge, "stale: no data");
   stamps.clear();
   const auto suit = Start("stream demo:walk --rate_hz 480 --seconds 4.5 --to " + address);
   ASSERT_TRUE(Spin([&] { return count() >= kUntilFull; }));
