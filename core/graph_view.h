@@ -165,6 +165,10 @@ struct ShownTopic {
   bool is_every_frame() const { return is_frame && name == kEveryFrame; }
 };
 
+/// The fixed frame of RViz's configurations unless told, whether or not there is one of that name:
+/// a scene without it is no mistake of the user.
+inline constexpr char kUsualFrameOfRviz[] = "map";
+
 /// The frames of TF that a camera goes with.
 struct CameraFrames {
   std::string at = {};    // where it is; "": the camera stands

@@ -11,6 +11,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "core/picture_limits.h"
 #include "core/system/check.h"
 #include "render/image/new_file.h"
 #include "render/image/plain_png.h"
@@ -199,13 +200,12 @@ Image ReadPng(const std::filesystem::path& path) {
 }
 
 PngPixels ReadPngPixels(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::uint64_t kMostPixels = 1U << 24U;  // 4096 x 4096
   try {
     PngInMemory png(bytes, size);
     const png_image& header = png.header();
-    if (std::uint64_t{header.width} * header.height > kMostPixels) {
-      throw std::runtime_error(
-          fmt::format("{} x {} px are more than {}", header.width, header.height, kMostPixels));
+    if (std::uint64_t{header.width} * header.height > kMostUnpackedPixels) {
+      throw std::runtime_error(fmt::format("{} x {} px are more than {}", header.width,
+                                           header.height, kMostUnpackedPixels));
     }
     PngPixels pixels;
     pixels.width = static_cast<int>(header.width);

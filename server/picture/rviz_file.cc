@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/graph_view.h"
 #include "core/suit_colors.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
@@ -53,7 +54,7 @@ class RvizReader {
   RvizPicture Read(const YAML::Node& root) {
     const YAML::Node manager = Member(root, "Visualization Manager");
     if (!manager.IsDefined() || !manager.IsMap()) {
-      throw UsageError(path_ + ": is no configuration of RViz: it has no 'Visualization Manager'");
+      throw UsageError(path_ + " is no configuration of RViz: it has no 'Visualization Manager'");
     }
     NameOtherThanMaps(manager, {"Global Options", "Views"});
     ReadGlobalOptions(manager);
@@ -95,7 +96,7 @@ class RvizReader {
     Set("background", ToHex(rgb), line);
     const double luma = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     Set("theme", luma < 0.4 ? "dark" : "light", line);
-    picture_.fixed_frame = rviz::FrameOf(all, "Fixed Frame", "map");
+    picture_.fixed_frame = rviz::FrameOf(all, "Fixed Frame", kUsualFrameOfRviz);
     picture_.fixed_frame_line = LineOf(all.IsDefined() ? all : manager);
     if (!BoolOf(all, "Default Light", true)) {
       Remark(all, "Default Light is off; bodies are lit all the same");

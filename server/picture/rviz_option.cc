@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/graph_view.h"
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
 #include "server/options/ros_names.h"
@@ -162,8 +163,6 @@ class Frames {
   }
 
  private:
-  static constexpr char kUsual[] = "map";  // of RViz, with or without a frame of this name
-
   // False: the camera stands.
   bool Follow(const std::string& frame, const std::string& turn, bool has_camera) {
     options::Option* const option = list_.Find("camera_tf");
@@ -174,7 +173,7 @@ class Frames {
       list_.Set(*option, option->name,
                 {frame + turn, fmt::format("{}:{}: ", file_, picture_.target.line)},
                 Channel::kFile);
-      if (frame != kUsual) {
+      if (frame != kUsualFrameOfRviz) {
         spdlog::info("{}:{}: the camera is to go with the frame {}", file_, picture_.target.line,
                      Quoted(frame));
       }
@@ -201,7 +200,7 @@ class Frames {
   }
 
   void Warn(bool is_in_fixed) {
-    if (picture_.fixed_frame == kUsual) return;
+    if (picture_.fixed_frame == kUsualFrameOfRviz) return;
     // With topics a picture has grids in place of the floor.
     if (is_in_fixed && HasTopics(list_) && list_.Find("floor") != nullptr) return;
     const std::string what =

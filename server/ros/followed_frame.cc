@@ -8,8 +8,8 @@ namespace kinescope::ros_bridge {
 
 void FollowedFrame::TellOfAxes(bool is_there, std::int64_t now_nanos) {
   constexpr std::int64_t kPatience = 5 * kNanosPerSecond;
-  constexpr char kFrameOfRviz[] = "map";  // in configurations, whether or not there is one
-  if (is_there || has_told_ || frames_.axes == kFrameOfRviz) return without_axes_nanos_.reset();
+  if (is_there || has_told_ || frames_.axes == kUsualFrameOfRviz)
+    return without_axes_nanos_.reset();
   if (!without_axes_nanos_ || now_nanos < *without_axes_nanos_) without_axes_nanos_ = now_nanos;
   if (now_nanos - *without_axes_nanos_ < kPatience) return;
   has_told_ = true;

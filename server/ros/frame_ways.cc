@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/system/utf8.h"
@@ -93,6 +94,15 @@ std::string WhyNotFound(const TfTree& tf, const std::string& frame, const std::s
   }
   return fmt::format("frame '{}' hangs on '{}', which has no way to '{}' in TF", Shown(frame),
                      Shown(root), Shown(target));
+}
+
+std::string OtherTreeOf(const TfTree& tf, const std::string& frame, const std::string& target) {
+  const Frames& frames = tf.frames();
+  if (frames.count(frame) == 0) return "";
+  Way way = WayUp(frames, frame);
+  const Way of_target = WayUp(frames, target);
+  if (!way.again.empty() || !of_target.again.empty()) return "";
+  return way.frames.back() == of_target.frames.back() ? "" : std::move(way.frames.back());
 }
 
 }  // namespace kinescope::ros_bridge

@@ -21,6 +21,10 @@ namespace kinescope::ros_bridge {
 [[nodiscard]] std::string WhyNotFound(const TfTree& tf, const std::string& frame,
                                       const std::string& target);
 
+/// The root of the tree of `frame`, if that of `target` is another one; else "".
+[[nodiscard]] std::string OtherTreeOf(const TfTree& tf, const std::string& frame,
+                                      const std::string& target);
+
 /// Something of a topic that has no place, since its frame has none.
 struct WithoutPlace {
   std::size_t topic = 0;

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "core/picture_limits.h"
 #include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
@@ -54,10 +55,8 @@ bool BeginsWith(const CameraImage& image, std::initializer_list<std::uint8_t> be
                     image.bytes->begin() + static_cast<std::ptrdiff_t>(image.begin));
 }
 
-// Of the size that a PNG begins with: those with more pixels are not unpacked
-// (render/image/png_file.cc).
+// Of the size that a PNG begins with.
 std::string WhyTooLarge(const CameraImage& png) {
-  constexpr std::uint64_t kMostPixels = 1U << 24U;  // 4096 x 4096
   constexpr std::size_t kWidthAt = 16, kHeightAt = 20, kSizeOfNumber = 4;
   if (png.size < kHeightAt + kSizeOfNumber) return "";
   const auto number_at = [&](std::size_t place) {
@@ -68,8 +67,9 @@ std::string WhyTooLarge(const CameraImage& png) {
     return number;
   };
   const std::uint64_t width = number_at(kWidthAt), height = number_at(kHeightAt);
-  if (width * height <= kMostPixels) return "";
-  return fmt::format("a PNG of {} x {} px; at most {} px are unpacked", width, height, kMostPixels);
+  if (width * height <= kMostUnpackedPixels) return "";
+  return fmt::format("a PNG of {} x {} px; at most {} px are unpacked", width, height,
+                     kMostUnpackedPixels);
 }
 
 // Says what kind of file it is, by its first bytes; its `encoding` is the format that was stated.

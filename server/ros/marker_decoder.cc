@@ -88,7 +88,7 @@ void MarkerDecoder::DecodeMarkers(const RawMessage& raw, bool is_array, DecodedM
   }
   to.has_single_markers = true;
   if (is_array) {
-    to.markers = array_.markers;
+    to.markers.assign(array_.markers.begin(), array_.markers.end());
   } else {
     to.markers = {marker_};
   }

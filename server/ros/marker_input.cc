@@ -20,10 +20,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
+bool AreEqual(const urdf::Pose& a, const urdf::Pose& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
 bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
-  return a.type == b.type && a.pose.position == b.pose.position &&
-         a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
-         a.color == b.color && a.points == b.points && a.colors == b.colors && a.text == b.text &&
+  return a.type == b.type && AreEqual(a.pose, b.pose) && a.scale == b.scale && a.color == b.color &&
+         a.points == b.points && a.colors == b.colors && a.text == b.text &&
          a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors &&
          a.is_in_pixels == b.is_in_pixels && a.ground == b.ground;
 }
@@ -73,6 +76,33 @@ void Take(const MarkerLook& look, SceneMarker& marker) {
   if (!look.is_converted) MakeOpaque(marker);
 }
 
+// The sweep of those points of `message` that are drawn; null: of none, or not known.
+std::shared_ptr<const Sweep> OfDrawn(std::shared_ptr<const Sweep> sweep, const Marker& message,
+                                     std::size_t drawn) {
+  if (!sweep || sweep->shares.size() != message.points.size()) return nullptr;
+  if (drawn == message.points.size()) return sweep;
+  Sweep rest{sweep->secs};
+  for (std::size_t i = 0; i < message.points.size(); ++i) {
+    const geometry_msgs::Point& at = message.points[i];
+    if (IsWithinReach({at.x, at.y, at.z})) rest.shares.push_back(sweep->shares[i]);
+  }
+  return rest.shares.size() == drawn ? std::make_shared<const Sweep>(std::move(rest)) : nullptr;
+}
+
+// As laser_geometry has it, which RViz uses: the frame moves and turns evenly from `first` to
+// `last`. @pre points.pose is that at the stamp
+void Bend(SceneMarker& points, const urdf::Pose& local, const Sweep& sweep, const urdf::Pose& first,
+          const urdf::Pose& last) {
+  const Eigen::Quaterniond back = points.pose.orientation.conjugate();
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    const auto share = static_cast<double>(sweep.shares[i]);
+    const Eigen::Vector3d position = first.position + share * (last.position - first.position);
+    const Eigen::Quaterniond turn = first.orientation.slerp(share, last.orientation);
+    const Eigen::Vector3d in_frame = local.position + local.orientation * points.points[i];
+    points.points[i] = back * (position + turn * in_frame - points.pose.position);
+  }
+}
+
 bool IsLeftOut(const Marker& message, const ShownStyle& style) {
   const std::vector<std::string>& hidden = style.frames.hidden;
   return std::find(hidden.begin(), hidden.end(), message.ns) != hidden.end();
@@ -82,7 +112,8 @@ bool IsLeftOut(const Marker& message, const ShownStyle& style) {
 
 std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
                                           std::int64_t monotonic_nanos, const ShownStyle& style,
-                                          const MarkerLook& look) {
+                                          const MarkerLook& look,
+                                          std::shared_ptr<const Sweep> sweep) {
   if (IsLeftOut(message, style)) return std::nullopt;
   const auto erase = [&](auto from, auto to) {
     for (auto entry = from; entry != to; ++entry) Release(entry->second);
@@ -136,6 +167,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   const bool is_cloud = type == MarkerType::kPoints || type == MarkerType::kSphereList ||
                         type == MarkerType::kCubeList;
   if (is_cloud && SceneAxisOf(style)) entry.axis_style = style;
+  entry.sweep = OfDrawn(std::move(sweep), message, entry.shape->points.size());
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;
   entry.is_new = has_new_ = true;
@@ -156,23 +188,26 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   return some;
 }
 
-std::optional<Refusal> MarkerStore::ApplyAll(std::size_t topic, const std::vector<Marker>& messages,
-                                             std::int64_t monotonic_nanos, const ShownStyle& style,
-                                             const MarkerLook& look) {
-  std::optional<Refusal> first;
-  for (const Marker& message : messages) {
-    auto refusal = Apply(topic, message, monotonic_nanos, style, look);
-    if (refusal && !first) first = std::move(refusal);
-  }
-  return first;
-}
-
 // Many markers share a frame and a stamp, so each is looked up once. Whether a frame exists does
 // not depend on the stamp.
 class MarkerStore::FrameCache {
  public:
   explicit FrameCache(const FindFrame& find) : find_(find) {}
 
+  std::optional<Span> Find(const std::string& frame, std::int64_t stamp_nanos, const Sweep* sweep) {
+    const auto first = Find(frame, stamp_nanos);
+    if (!first) return std::nullopt;
+    Span span{*first, std::nullopt};
+    if (sweep == nullptr || stamp_nanos == 0) return span;
+    const auto nanos = static_cast<std::int64_t>(sweep->secs * kNanosPerSecond);
+    const auto last = Find(frame, stamp_nanos + nanos);
+    if (!last) return span;
+    span.first.is_early = first->is_early || last->is_early;
+    if (!AreEqual(first->pose, last->pose)) span.last = last->pose;
+    return span;
+  }
+
+ private:
   std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) {
     if (unknown_.count(frame) != 0) return std::nullopt;
     const std::pair<std::string, std::int64_t> key(frame, stamp_nanos);
@@ -186,7 +221,6 @@ class MarkerStore::FrameCache {
     return found;
   }
 
- private:
   const FindFrame& find_;
   std::map<std::pair<std::string, std::int64_t>, FramePlace> known_;
   std::set<std::string> unknown_;
@@ -220,7 +254,8 @@ void MarkerStore::KeepWaiting(Entry& entry) {
   }
   if (waiting_points_ + points > kMostPoints) return;
   waiting_points_ += points;
-  entry.waiting.push_back({entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style});
+  entry.waiting.push_back(
+      {entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style, entry.sweep});
 }
 
 void MarkerStore::StopWaiting(Entry& entry, std::size_t count) {
@@ -239,35 +274,37 @@ void MarkerStore::Release(Entry& entry) {
 bool MarkerStore::PlaceWaiting(Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
   for (std::size_t count = entry.waiting.size(); count > 0; --count) {
     const Waiting& each = entry.waiting[count - 1];
-    const auto place = frames.Find(each.frame, each.stamp_nanos);
-    if (!place || place->is_early) continue;
+    const auto place = frames.Find(each.frame, each.stamp_nanos, each.sweep.get());
+    if (!place || place->first.is_early) continue;
     entry.held_nanos = now_nanos;  // transforms do come
-    const bool is_changed = PutAt(entry, each, place->pose);
+    const bool is_changed = PutAt(entry, each, *place);
     StopWaiting(entry, count);
     return is_changed;
   }
   return false;
 }
 
-bool MarkerStore::PutAt(Entry& entry, const Waiting& message, const urdf::Pose& frame) {
-  const urdf::Pose& local = message.shape->pose;
+bool MarkerStore::PutAt(Entry& entry, const Waiting& message, const Span& place) {
+  const urdf::Pose &local = message.shape->pose, &frame = place.first.pose;
   const urdf::Pose pose{frame.position + frame.orientation * local.position,
                         (frame.orientation * local.orientation).normalized()};
-  if (entry.placed && entry.placed_shape == message.shape &&
-      entry.placed->pose.position == pose.position &&
-      entry.placed->pose.orientation.coeffs() == pose.orientation.coeffs()) {
+  const bool is_bent = message.sweep && place.last;
+  if (entry.placed && entry.placed_shape == message.shape && !is_bent && !entry.is_placed_bent &&
+      AreEqual(entry.placed->pose, pose)) {
     return false;
   }
   SceneMarker placed = *message.shape;
   placed.pose = pose;
+  if (is_bent) Bend(placed, local, *message.sweep, frame, *place.last);
   if (message.axis_style) ColourByPlace(placed, *message.axis_style);
   entry.placed = std::make_shared<const SceneMarker>(std::move(placed));
   entry.placed_shape = message.shape;
+  entry.is_placed_bent = is_bent;
   return true;
 }
 
 bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
-  auto place = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+  auto place = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos, entry.sweep.get());
   const bool is_told = !place && (!entry.stands_in_scene || entry.is_told_missing);
   if (is_told && !entry.is_lost) lost_.push_back(LostOf(key, entry));
   entry.is_lost = is_told;
@@ -276,14 +313,15 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
   }
   if (!place) place.emplace();
   const bool has_waited = entry.is_new && entry.held_nanos;
-  if (IsHeld(entry, *place, now_nanos)) return PlaceWaiting(entry, frames, now_nanos);
+  if (IsHeld(entry, place->first, now_nanos)) return PlaceWaiting(entry, frames, now_nanos);
   if (has_waited && entry.dies_nanos != 0) {  // it lives from now on, as in RViz
     entry.dies_nanos += now_nanos - entry.came_nanos;
   }
   StopWaiting(entry, entry.waiting.size());
   entry.is_new = false;
-  entry.is_early = place->is_early;
-  return PutAt(entry, {entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style}, place->pose);
+  entry.is_early = place->first.is_early;
+  return PutAt(entry, {entry.shape, entry.frame, entry.stamp_nanos, entry.axis_style, entry.sweep},
+               *place);
 }
 
 bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {

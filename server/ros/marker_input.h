@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/graph_view.h"
@@ -22,6 +23,7 @@
 #include "server/ros/frame_ways.h"
 #include "server/ros/marker_look.h"
 #include "server/ros/marker_message.h"
+#include "server/ros/shown_marker.h"
 
 namespace kinescope::ros_bridge {
 
@@ -38,18 +40,30 @@ class MarkerStore {
   /// `topic` identifies the sender: namespaces and ids of markers are separate per topic. Points
   /// that `style` colours by an axis have their colours as soon as they have a place; those of the
   /// type POINTS have its size in pixels (`size_px`), if it has one; markers of a namespace that it
-  /// leaves out (`frames.hidden`) have no effect.
+  /// leaves out (`frames.hidden`) have no effect. With a `sweep` each point stands where the frame
+  /// was when it was measured, by the places of the frame at the beginning and at the end.
   /// @return why the message, or a part of it, was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
                                              std::int64_t monotonic_nanos,
                                              const ShownStyle& style = {},
-                                             const MarkerLook& look = {});
+                                             const MarkerLook& look = {},
+                                             std::shared_ptr<const Sweep> sweep = nullptr);
 
-  /// All of them. @return why the first of those that were rejected was
-  [[nodiscard]] std::optional<Refusal> ApplyAll(
-      std::size_t topic, const std::vector<visualization_msgs::Marker>& messages,
-      std::int64_t monotonic_nanos, const ShownStyle& style = {}, const MarkerLook& look = {});
+  /// All of them, with their sweeps. @return why the first of those that were rejected was
+  template <class Message>
+  [[nodiscard]] std::optional<Refusal> ApplyAll(std::size_t topic,
+                                                const std::vector<Message>& messages,
+                                                std::int64_t monotonic_nanos,
+                                                const ShownStyle& style = {},
+                                                const MarkerLook& look = {}) {
+    std::optional<Refusal> first;
+    for (const Message& message : messages) {
+      auto refusal = Apply(topic, message, monotonic_nanos, style, look, SweepOf(message));
+      if (refusal && !first) first = std::move(refusal);
+    }
+    return first;
+  }
 
   /// Puts the axes of a frame, or a grid in it, into the store, for good. @pre frame.is_frame
   /// @throws UsageError if they cannot be shown
@@ -83,6 +97,7 @@ class MarkerStore {
     std::string frame;
     std::int64_t stamp_nanos = 0;
     std::optional<ShownStyle> axis_style;
+    std::shared_ptr<const Sweep> sweep;  // of the points of `shape`; null: none
   };
   struct Entry {
     std::shared_ptr<const SceneMarker> shape;         // of the newest message; its pose in `frame`
@@ -91,6 +106,8 @@ class MarkerStore {
     std::deque<Waiting> waiting;                      // messages before the newest
     std::string frame;
     std::optional<ShownStyle> axis_style;  // of points that are coloured by their place
+    std::shared_ptr<const Sweep> sweep;    // of the points of `shape`; null: none
+    bool is_placed_bent = false;           // by a sweep
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
     bool is_new = true;                                     // the newest message was not placed yet
@@ -105,6 +122,11 @@ class MarkerStore {
   };
 
   class FrameCache;
+  // Of a frame.
+  struct Span {
+    FramePlace first;                // at the stamp of a message
+    std::optional<urdf::Pose> last;  // at the end of its sweep, if it is elsewhere then
+  };
   bool Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos);
   static bool IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos);
   void KeepWaiting(Entry& entry);
@@ -112,7 +134,7 @@ class MarkerStore {
   void StopWaiting(Entry& entry, std::size_t count);
   void Release(Entry& entry);
   bool PlaceWaiting(Entry& entry, FrameCache& frames, std::int64_t now_nanos);
-  static bool PutAt(Entry& entry, const Waiting& message, const urdf::Pose& frame);
+  static bool PutAt(Entry& entry, const Waiting& message, const Span& place);
   static WithoutPlace LostOf(const Key& key, const Entry& entry);
 
   std::map<Key, Entry> entries_;

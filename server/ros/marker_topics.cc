@@ -210,6 +210,7 @@ void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
     unplaced.insert(text);
     if (!is_for_long || ++counts[lost.topic] > kMostOfTopic) continue;
     if (warned_.size() < kMostWarnings && warned_.insert(text).second) spdlog::warn("{}", text);
+    TellOfOtherTree(lost.frame);
     not_shown.push_back(std::move(text));
   }
   for (const auto& [topic, count] : counts) {
@@ -224,6 +225,20 @@ void MarkerInbox::WarnOfUnplaced(std::int64_t monotonic_nanos) {
   unplaced_ = std::move(unplaced);
   const std::lock_guard<std::mutex> lock(mutex_);
   not_shown_ = std::move(not_shown);
+}
+
+// Once: a robot whose frames have nothing to do with those of the person has many topics.
+void MarkerInbox::TellOfOtherTree(const std::string& frame) {
+  if (has_told_of_trees_ || frame.empty()) return;
+  const std::string root = PrintableLine(OtherTreeOf(*tf_, frame, frame_->name()));
+  if (root.empty()) return;
+  has_told_of_trees_ = true;
+  spdlog::warn(
+      "what hangs on '{}' in TF is shown once a transform connects it with '{}', in which the "
+      "scene "
+      "stands: let a node publish one, such as static_transform_publisher of tf2_ros, or start "
+      "with --reference_frame {}, and people stand in '{}'",
+      root, frame_->name(), root, root);
 }
 
 std::vector<std::string> MarkerInbox::not_shown() const {

@@ -86,6 +86,7 @@ class MarkerInbox {
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
   void WarnOfUnplaced(std::int64_t monotonic_nanos);
+  void TellOfOtherTree(const std::string& frame);
   std::string TextOf(const WithoutPlace& lost) const;
   std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) const;
   std::vector<const RobotFrames*> Robots() const;
@@ -108,6 +109,7 @@ class MarkerInbox {
   std::map<int, Body> bodies_;  // by character
   std::int64_t looked_nanos_ = 0;
   std::set<std::string> unplaced_, warned_;  // texts: when it looked last; of the log
+  bool has_told_of_trees_ = false;
 
   mutable std::mutex mutex_;
   std::deque<DecodedMessage> decoded_;             // guarded by mutex_

@@ -187,9 +187,19 @@ const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
   return nullptr;
 }
 
+// 0 if its rays were measured at once, or if it does not say.
+double SweepSecsOf(const sensor_msgs::LaserScan& scan) {
+  constexpr double kLongest = 10;  // TF keeps no more
+  if (scan.ranges.size() < 2) return 0;
+  const double secs =
+      static_cast<double>(scan.ranges.size() - 1) * static_cast<double>(scan.time_increment);
+  return std::abs(secs) <= kLongest ? secs : 0;
+}
+
 }  // namespace
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const ShownStyle& style) {
+  Sweep sweep{SweepSecsOf(message)};
   Marker points = PointsOf(message.header, style, kPointSize);
   const bool has_intensities =
       FieldOf(style) == "intensity" && message.intensities.size() == message.ranges.size();
@@ -204,11 +214,14 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
                          static_cast<double>(i) * static_cast<double>(message.angle_increment);
     const auto metres = static_cast<double>(range);
     points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
+    sweep.shares.push_back(static_cast<float>(i) / static_cast<float>(message.ranges.size() - 1));
     if (has_intensities) values.push_back(static_cast<double>(message.intensities[i]));
     if (axis) values.push_back(At(points.points.back(), *axis));
   }
   points.colors = ColorsOf(values, style);
-  return PointsOrNone(std::move(points));
+  ShownMarkers markers = PointsOrNone(std::move(points));
+  if (sweep.secs != 0) markers.front().sweep = std::make_shared<const Sweep>(std::move(sweep));
+  return markers;
 }
 
 Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const ShownStyle& style) {

@@ -32,12 +32,9 @@
 
 #include "core/graph_view.h"
 #include "server/ros/force_input.h"
+#include "server/ros/shown_marker.h"
 
 namespace kinescope::ros_bridge {
-
-/// Of one message. Their ids are the same for each message of a type, so that a message replaces
-/// the one before; what it does not show is deleted.
-using ShownMarkers = std::vector<visualization_msgs::Marker>;
 
 inline constexpr std::size_t kMostMapRectangles = 4'000;
 

@@ -95,7 +95,7 @@ std::optional<Refusal> TopicMarkers::Take(std::size_t topic, const std::string& 
     if (stays && !shelf_.Place(topic, style.earlier, *shown)) return std::nullopt;
     markers = *std::move(shown);
   }
-  for (visualization_msgs::Marker& marker : markers) {
+  for (ShownMarker& marker : markers) {
     marker.ns = WithoutSlashes(source);
     out.push_back(std::move(marker));
   }

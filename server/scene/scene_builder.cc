@@ -327,12 +327,14 @@ void SceneBuilder::PlaceCamera(SceneState& scene) {
 
 // Once per program, although a clip is read twice.
 void SceneBuilder::WarnOfCamera() const {
-  constexpr char kFrameOfRviz[] = "map";  // in configurations, whether or not there is one
   static std::atomic<bool> is_told{false};
-  if (options_.camera_frame.at == kFrameOfRviz || is_told.exchange(true)) return;
+  if (options_.camera_frame.at == kUsualFrameOfRviz || is_told.exchange(true)) return;
   spdlog::warn(
-      "no frame '{}' has come (--camera_tf), neither of TF nor of a person; the camera stands as "
-      "if it were at the origin",
+      "the frame '{}' of the camera (--camera_tf) has no place in the scene: it has not come, or "
+      "TF "
+      "has no way from it to the frame that the scene stands in; the camera stands as if it were "
+      "at "
+      "the origin",
       options_.camera_frame.at);
 }
 

@@ -144,7 +144,7 @@ TEST(RvizFile, IsRefusedWithPlaceAndReason) {
   EXPECT_EQ(RefusalOfText("[1, 2"),
             "saved.rviz:1: not valid YAML (end of sequence flow not found)");
   EXPECT_EQ(RefusalOfText("Panels: []\n"),
-            "saved.rviz: is no configuration of RViz: it has no 'Visualization Manager'");
+            "saved.rviz is no configuration of RViz: it has no 'Visualization Manager'");
   EXPECT_EQ(
       RefusalOfText(WithDisplays("    - {Class: rviz_default_plugins/Grid}\n")),
       "saved.rviz:3: is a configuration of RViz 2 ('rviz_default_plugins/Grid'); save one with "

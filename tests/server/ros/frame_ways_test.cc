@@ -61,6 +61,18 @@ TEST(WhyNotFound, TellsWhatIsNotThereFromWhatHangsElsewhere) {
             "the transforms between 'arm' and 'world' have no time in common");
 }
 
+TEST(OtherTreeOf, IsTheRootOfWhatHasNoWay) {
+  const auto tree =
+      TreeOf({{"odom", "map"}, {"lidar", "odom"}, {"pelvis", "world"}, {"a", "b"}, {"b", "a"}});
+  const TfTree& tf = *tree;
+  EXPECT_EQ(OtherTreeOf(tf, "lidar", "world"), "map");
+  EXPECT_EQ(OtherTreeOf(tf, "map", "world"), "map");
+  EXPECT_EQ(OtherTreeOf(tf, "lidar", "unheard_of"), "map");
+  EXPECT_EQ(OtherTreeOf(tf, "lidar", "odom"), "");
+  EXPECT_EQ(OtherTreeOf(tf, "moon", "world"), "");
+  EXPECT_EQ(OtherTreeOf(tf, "a", "world"), "") << "a loop is another matter";
+}
+
 TEST(WhyNotFound, NamesALoop) {
   const auto tree = TreeOf({{"a", "b"}, {"b", "c"}, {"c", "a"}, {"lidar", "b"}, {"arm", "world"}});
   const TfTree& tf = *tree;

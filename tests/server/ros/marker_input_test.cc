@@ -424,6 +424,68 @@ TEST(MarkerStore, ColoursPointsByTheirPlaceInTheScene) {
       << "10 m: magenta";
 }
 
+// A turn of a quarter, and a way of 2 m, within a second.
+std::optional<FramePlace> OfATurningCart(std::int64_t newest_nanos, std::int64_t stamp) {
+  const double secs = Secs(std::min(stamp, newest_nanos));
+  return FramePlace{
+      {{2 * secs, 0, 0},
+       Eigen::Quaterniond(Eigen::AngleAxisd(M_PI_2 * secs, Eigen::Vector3d::UnitZ()))},
+      stamp > newest_nanos};
+}
+
+std::vector<Eigen::Vector3d> PlacesOf(const SceneMarker& marker) {
+  std::vector<Eigen::Vector3d> all;
+  for (const Eigen::Vector3d& point : marker.points) {
+    all.push_back(marker.pose.position + marker.pose.orientation * point);
+  }
+  return all;
+}
+
+TEST(MarkerStore, PlacesThePointsOfASweepWhereTheFrameWasThen) {
+  Marker points = Of(Marker::POINTS);
+  points.header.stamp.fromSec(1);
+  points.points.resize(3);
+  for (auto& point : points.points) point.x = 1;
+  points.colors.clear();
+  const auto sweep = std::make_shared<const Sweep>(Sweep{1, {0, 0.5F, 1}});
+  std::int64_t newest_nanos = 1'500'000'000;
+  const auto find = [&](const std::string&, std::int64_t stamp) {
+    return OfATurningCart(newest_nanos, stamp);
+  };
+  MarkerStore store;
+  ASSERT_FALSE(store.Apply(0, points, 0, {}, {}, sweep));
+  EXPECT_FALSE(store.Update(0, find)) << "it waits for the transforms of its last point";
+  newest_nanos = 2'000'000'000;
+  ASSERT_TRUE(store.Update(100 * kNanosPerMilli, find));
+  const auto places = PlacesOf(*store.markers().at(0));
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_TRUE(places[0].isApprox(Eigen::Vector3d(2, 1, 0))) << places[0].transpose();
+  EXPECT_TRUE(places[1].isApprox(Eigen::Vector3d(3 - M_SQRT1_2, M_SQRT1_2, 0)))
+      << places[1].transpose();
+  EXPECT_TRUE(places[2].isApprox(Eigen::Vector3d(3, 0, 0))) << places[2].transpose();
+}
+
+TEST(MarkerStore, KeepsASweepWithoutThePointsThatAreTooFar) {
+  Marker points = Of(Marker::POINTS);
+  points.header.stamp.fromSec(1);
+  points.points.resize(3);
+  points.points[0].x = 2 * kFarthestMarker;
+  points.points[1].x = points.points[2].x = 1;
+  points.colors.clear();
+  const auto sweep = std::make_shared<const Sweep>(Sweep{1, {0, 0.5F, 1}});
+  const auto find = [](const std::string&, std::int64_t stamp) {
+    return OfATurningCart(10 * kNanosPerSecond, stamp);
+  };
+  MarkerStore store;
+  const auto some = store.Apply(0, points, 0, {}, {}, sweep);
+  ASSERT_TRUE(some);
+  EXPECT_TRUE(some->is_partial);
+  ASSERT_TRUE(store.Update(0, find));
+  const auto places = PlacesOf(*store.markers().at(0));
+  ASSERT_EQ(places.size(), 2U);
+  EXPECT_TRUE(places[1].isApprox(Eigen::Vector3d(3, 0, 0))) << places[1].transpose();
+}
+
 TEST(MarkerStore, SizesSquaresOfATopicInPixels) {
   MarkerStore store;
   const Cart cart;

@@ -18,6 +18,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using visualization_msgs::Marker;
@@ -409,6 +410,25 @@ TEST(ShownMessages, AScanHasThePointsWithinItsRange) {
   EXPECT_NEAR(markers[0].points[1].x, 1, 1e-6);
   EXPECT_EQ(RgbOf(markers[0].colors.at(0)), (std::array<int, 3>{255, 0, 0})) << "the least: red";
   EXPECT_EQ(RgbOf(markers[0].colors.at(1)), (std::array<int, 3>{255, 0, 255}));
+}
+
+TEST(ShownMessages, AScanSaysWhenItsPointsWereMeasured) {
+  auto scan = InFrame<sensor_msgs::LaserScan>();
+  scan.angle_increment = 0.1F;
+  scan.range_max = 5;
+  scan.ranges = {1, 6, 1, 1, 1};
+  scan.time_increment = 0.02F;
+  const auto sweep = ShownOf(scan).at(0).sweep;
+  ASSERT_TRUE(sweep);
+  EXPECT_NEAR(sweep->secs, 0.08, 1e-6) << "of all rays, as RViz has it";
+  EXPECT_THAT(sweep->shares, ElementsAre(0, 0.5F, 0.75F, 1));
+  for (const float none : {0.0F, std::nanf(""), 1e9F}) {
+    scan.time_increment = none;
+    EXPECT_FALSE(ShownOf(scan).at(0).sweep) << none;
+  }
+  scan.time_increment = 0.02F;
+  scan.ranges = {1};
+  EXPECT_FALSE(ShownOf(scan).at(0).sweep);
 }
 
 // x, y and z, and four bytes more under a name of its own.
