@@ -40,12 +40,16 @@ std::string Alternatives(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 std::string Nearest(std::string_view text, const std::vector<std::string>& names) {
   constexpr std::size_t kLongest = 64;  // longer texts are no slip of a finger
   if (text.empty() || text.size() > kLongest) return "";
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = Lower(std::string(text));
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, text.size() / 3) + 1;
   for (const std::string& name : names) {

@@ -12,6 +12,9 @@ namespace kinescope {
 /// "0 samples", "1 sample", "2 people". `many`: "" is that of one with an "s".
 std::string Counted(std::uint64_t count, std::string_view one, std::string_view many = "");
 
+/// With the letters of ASCII in lower case.
+std::string Lower(std::string text);
+
 /// "a, b or c".
 std::string Alternatives(const std::vector<std::string>& names);
 

@@ -12,10 +12,11 @@ namespace kinescope::app {
 
 /// For --help.
 inline constexpr const char* kMarksHelp =
-    "file of marks (--marks_file of serve): what was marked at the time code of a sample is shown";
+    "file of marks (--marks_file of serve): what was marked at the time code of a sample is shown, "
+    "of a ROS bag what was marked at its stamp";
 
-/// Empty without a file. @throws UsageError with the reason
-marks::MarkTrack ReadTrack(const options::FilePath& value);
+/// For what `source` has recorded. Empty without a file. @throws UsageError with the reason
+marks::MarkTrack ReadTrack(const options::FilePath& value, const std::string& source);
 
 /// As pictures and reports show it: "3  belt slipped".
 std::string CaptionOf(const marks::Mark& mark);

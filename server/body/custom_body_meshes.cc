@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/body/mesh_module.h"
 #include "urdf/body_surface.h"
 #include "urdf/mesh_inputs.h"
@@ -22,11 +23,6 @@ namespace fs = std::filesystem;
 using urdf::At;
 
 constexpr std::size_t kMaxFiles = 10'000;  // of a folder of meshes; more is another folder
-
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 bool IsMeshFile(const fs::path& path) {
   const std::string extension = Lower(path.extension().string());

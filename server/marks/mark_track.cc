@@ -24,6 +24,16 @@ bool IsOfThatDay(const SceneState& state, const Moment& moment, std::int64_t nan
 
 }  // namespace
 
+template <class At>
+std::int64_t MarkTrack::NanosOf(const At& at) const {
+  switch (clock_) {
+    case TrackClock::kServer: return at.made_nanos;
+    case TrackClock::kTimeCode: return kNanosPerMilli * at.time_code_millis;
+    case TrackClock::kStamp: return at.stamp_nanos;
+  }
+  return 0;
+}
+
 MarkTrack::MarkTrack(const std::vector<Mark>& marks, TrackClock clock) : clock_(clock) {
   std::map<std::uint64_t, const Mark*> newest;  // by id
   for (const Mark& mark : marks) newest[mark.id] = &mark;
@@ -36,15 +46,6 @@ MarkTrack::MarkTrack(const std::vector<Mark>& marks, TrackClock clock) : clock_(
   std::stable_sort(marks_.begin(), marks_.end(), [](const TrackMark& a, const TrackMark& b) {
     return a.from_nanos < b.from_nanos;
   });
-}
-
-std::int64_t MarkTrack::NanosOf(const Moment& moment) const {
-  return clock_ == TrackClock::kServer ? moment.made_nanos
-                                       : kNanosPerMilli * moment.time_code_millis;
-}
-
-std::int64_t MarkTrack::NanosOf(const SceneState& state) const {
-  return clock_ == TrackClock::kServer ? state.made_nanos : kNanosPerMilli * state.time_code_millis;
 }
 
 std::vector<const TrackMark*> MarkTrack::At(const SceneState& state) const {

@@ -15,6 +15,7 @@ namespace kinescope::marks {
 enum class TrackClock {
   kServer,    // SceneState::made_nanos, within one run of a server
   kTimeCode,  // the suit's time code, which recordings keep
+  kStamp,     // SceneState::stamp_nanos: ROS keeps stamps, and no time codes of the suit
 };
 
 struct TrackMark {
@@ -42,8 +43,8 @@ class MarkTrack {
   bool empty() const { return marks_.empty(); }
 
  private:
-  std::int64_t NanosOf(const Moment& moment) const;
-  std::int64_t NanosOf(const SceneState& state) const;
+  template <class At>  // Moment, SceneState
+  std::int64_t NanosOf(const At& at) const;
 
   TrackClock clock_ = TrackClock::kTimeCode;
   std::vector<TrackMark> marks_;  // from_nanos ascends

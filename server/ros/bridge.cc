@@ -48,7 +48,8 @@ struct Outlet {
   std::shared_ptr<const PersonTopics> topics;  // null until registered
 
   bool has_last = false;
-  std::uint32_t last_counter = 0;
+  // Counter and stamp of the newest sample, before it was given the graph's time.
+  std::optional<std::pair<std::uint32_t, std::int64_t>> came;
   std::int64_t last_stamp_nanos = 0;
   double period_secs = 0;            // between the last two samples; 0: not known
   std::uint64_t seen_in_number = 0;  // of the last live state that had this person
@@ -76,9 +77,9 @@ TfShape ShapeOf(const std::string& tf) {
   return tf == "tree" ? TfShape::kTree : TfShape::kBase;
 }
 
+// `sample` has the stamp of its source: that by a simulated clock is computed for each state anew.
 bool IsNew(const BodySample& sample, const Outlet& outlet) {
-  return !outlet.has_last || sample.counter != outlet.last_counter ||
-         sample.stamp_nanos != outlet.last_stamp_nanos;
+  return outlet.came != std::make_pair(sample.counter, sample.stamp_nanos);
 }
 
 // `state` with stamps of the graph's clock, which must have a time.
@@ -193,11 +194,11 @@ class Bridge : public RosBridge {
     if (state.liveness == Liveness::kStale && !is_stale_) PublishStaleMarkers();
     is_stale_ = state.liveness == Liveness::kStale;
     if (state.liveness != Liveness::kLive) return;
-    if (!IsSimulated()) return PublishLive(state);
+    if (!IsSimulated()) return PublishLive(state, state);
     clock_.Observe(WallNanos(), ToNanos(ros::Time::now()));
     if (!clock_.has_time()) return WaitForClock();
     if (std::exchange(jumps_, clock_.jumps()) != clock_.jumps()) ForgetStamps();
-    PublishLive(InRosTime(state, clock_));
+    PublishLive(InRosTime(state, clock_), state);
   }
 
   BridgeStatus status() const override {
@@ -231,17 +232,20 @@ class Bridge : public RosBridge {
     for (auto& [character, outlet] : outlets_) outlet.has_last = false;
   }
 
-  void PublishLive(const SceneState& state) {
+  /// `as_it_came`: with the stamps of the source.
+  void PublishLive(const SceneState& state, const SceneState& as_it_came) {
     last_live_number_ = state.number;
     shown_stamp_nanos_ = state.stamp_nanos;
     if (!state.people.empty()) scene_frame_->SetPerson();
-    for (const PersonState& person : state.people) {
+    for (std::size_t i = 0; i < state.people.size(); ++i) {
+      const PersonState& person = state.people[i];
+      const BodySample& came = as_it_came.people[i].sample;
       Outlet& outlet = OutletOf(person);
       outlet.seen_in_number = state.number;
       if (markers_in_) markers_in_->SetPerson(person, state.floor_z);
-      if (IsNew(person.sample, outlet) && !StandsStill(person.sample, outlet)) {
-        PublishSample(state, person, outlet);
-      }
+      if (!IsNew(came, outlet)) continue;
+      outlet.came.emplace(came.counter, came.stamp_nanos);
+      if (!StandsStill(person.sample, outlet)) PublishSample(state, person, outlet);
     }
     ReleaseThoseGone(state.stamp_nanos);
   }
@@ -313,7 +317,6 @@ class Bridge : public RosBridge {
     outlet.period_secs =
         outlet.has_last ? Secs(person.sample.stamp_nanos - outlet.last_stamp_nanos) : 0;
     outlet.has_last = true;
-    outlet.last_counter = person.sample.counter;
     outlet.last_stamp_nanos = person.sample.stamp_nanos;
     if (!outlet.topics) outlet.topics = registration_.TopicsOf(person.character);
     if (!outlet.topics) {

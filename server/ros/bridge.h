@@ -245,10 +245,22 @@ bool BuiltWithRos();
 std::string MasterUri();   // "" in a build without ROS
 bool MasterIsReachable();  // contacts it, waits at most a second
 
-/// The private parameter `~name` as text: from `_name:=value` on the command line, else from the
-/// master. nullopt if neither has it, if it is a list or a map, or if no master answers within 2.4
-/// s, which is logged. The master is asked once, at the first call. Any thread.
-std::optional<std::string> PrivateParameter(const std::string& name);
+/// A private parameter of this node.
+struct NodeParameter {
+  enum class Kind {
+    kText,    // or a number; one text
+    kSwitch,  // one text: "true" or "false". YAML reads an unquoted on or off as this
+    kList,    // of texts, numbers and switches
+    kOther,   // a map, or a list with something else in it; no texts
+  };
+  Kind kind = Kind::kText;
+  std::vector<std::string> texts = {};
+};
+
+/// The private parameters, by name without "~": from `_name:=value` on the command line, else from
+/// the master; those of the command line alone if no master answers within 2.4 s, which is logged.
+/// The master is asked once, at the first call. Any thread.
+const std::map<std::string, NodeParameter>& PrivateParameters();
 
 /// Null for kOff.
 /// @throws UsageError for an invalid config, for kRequired without a master, or in a build without

@@ -14,8 +14,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <mutex>
-#include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "core/system/errors.h"
 #include "server/ros/bridge.h"
@@ -75,14 +76,25 @@ void ChooseLogFile(std::map<std::string, std::string>& remappings) {
   if (!is_chosen) remappings.try_emplace("__log", "/dev/null");
 }
 
-std::optional<std::string> AsText(XmlRpcValue& value) {
+NodeParameter ToParameter(XmlRpcValue& value) {
+  using Kind = NodeParameter::Kind;
   switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean: return static_cast<bool>(value) ? "true" : "false";
-    case XmlRpcValue::TypeInt: return fmt::format("{}", static_cast<int>(value));
-    case XmlRpcValue::TypeDouble: return fmt::format("{}", static_cast<double>(value));
-    case XmlRpcValue::TypeString: return static_cast<std::string>(value);
-    default: return std::nullopt;
+    case XmlRpcValue::TypeBoolean:
+      return {Kind::kSwitch, {static_cast<bool>(value) ? "true" : "false"}};
+    case XmlRpcValue::TypeInt: return {Kind::kText, {fmt::format("{}", static_cast<int>(value))}};
+    case XmlRpcValue::TypeDouble:
+      return {Kind::kText, {fmt::format("{}", static_cast<double>(value))}};
+    case XmlRpcValue::TypeString: return {Kind::kText, {static_cast<std::string>(value)}};
+    case XmlRpcValue::TypeArray: break;
+    default: return {Kind::kOther};
   }
+  NodeParameter list{Kind::kList};
+  for (int i = 0; i < value.size(); ++i) {
+    const NodeParameter item = ToParameter(value[i]);
+    if (item.texts.size() != 1 || item.kind == Kind::kList) return {Kind::kOther};
+    list.texts.push_back(item.texts.front());
+  }
+  return list;
 }
 
 // One lost packet can cost more than a second; a master that never answers must not keep the
@@ -196,18 +208,17 @@ void LeaveRos() {
   ros::shutdown();
 }
 
-std::optional<std::string> PrivateParameter(const std::string& name) {
-  InitRos();
-  const auto argument = PrivateArguments().find(name);
-  if (argument != PrivateArguments().end()) return argument->second;
-  static std::mutex mutex;
-  static std::optional<XmlRpcValue> parameters;  // guarded by mutex
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (!parameters) parameters = FetchPrivateParameters();
-  if (parameters->getType() != XmlRpcValue::TypeStruct || !parameters->hasMember(name)) {
-    return std::nullopt;
-  }
-  return AsText((*parameters)[name]);
+const std::map<std::string, NodeParameter>& PrivateParameters() {
+  static const std::map<std::string, NodeParameter> kAll = [] {
+    InitRos();
+    std::map<std::string, NodeParameter> all;
+    for (const auto& [name, value] : PrivateArguments()) all[name].texts = {value};
+    XmlRpcValue of_master = FetchPrivateParameters();
+    if (of_master.getType() != XmlRpcValue::TypeStruct) return all;
+    for (auto& [name, value] : of_master) all.try_emplace(name, ToParameter(value));
+    return all;
+  }();
+  return kAll;
 }
 
 }  // namespace kinescope::ros_bridge

@@ -21,7 +21,10 @@ std::vector<std::string> TakenRosArguments() { return {}; }
 bool BuiltWithRos() { return false; }
 std::string MasterUri() { return ""; }
 bool MasterIsReachable() { return false; }
-std::optional<std::string> PrivateParameter(const std::string& /*name*/) { return std::nullopt; }
+const std::map<std::string, NodeParameter>& PrivateParameters() {
+  static const std::map<std::string, NodeParameter> kNone;
+  return kNone;
+}
 
 std::vector<RunningNode> FindRunningNodes() {
   throw UsageError(

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/wrenches/wrench_cells.h"
 
 namespace kinescope::wrenches {
@@ -21,14 +22,6 @@ constexpr std::size_t kMostGroups = 16;
 constexpr char kMotForm[] =
     "expected a MOT or STO file of OpenSim: a header that ends with a line "
     "endheader, a line of labels, rows";
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
 
 std::vector<std::string_view> Split(std::string_view text, std::string_view separators) {
   std::vector<std::string_view> parts;
@@ -48,7 +41,7 @@ struct Label {
 
 // "ground_force_1_vx": force x of "ground_1". nullopt: of no force, point or torque.
 std::optional<Label> ParseLabel(std::string_view text) {
-  const std::string lower = Lower(text);
+  const std::string lower = Lower(std::string(text));
   std::vector<std::string_view> words = Split(lower, "_.");
   if (words.size() < 2) return std::nullopt;
   const std::string_view last = words.back();

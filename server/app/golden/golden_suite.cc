@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -53,12 +52,6 @@ FoundCase Read(const fs::path& yaml) {
     found.error = error.what();
   }
   return found;
-}
-
-std::string Lower(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
 }
 
 // On some computers both have the same picture.

@@ -211,7 +211,7 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
 
 std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& context) {
   std::vector<std::string> notes;
-  const std::string changes = ChangesText(context.marks);
+  const std::string changes = ChangesText(context.marks, trial.newest().name, context.people);
   if (!changes.empty()) notes.push_back(changes);
   NoteAssumed(FactsOf(trial, context), notes);
   NoteTimes("Static (without accelerations)", trial.why_static(), trial.secs(), notes);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct TrialContext {
   SceneOptions scene;
   nlohmann::json options;  // option values of this run, by name
   std::vector<TrialMark> marks;
+  std::set<std::string> people;  // names of all people in the recording
 };
 
 /// A label and its value for display; `is_assumed`: a default value.

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,7 +120,7 @@ class Recording {
   Recording(const LoadsOptions& options, const TrialContext& context)
       : options_(options),
         meter_(context.scene.loads.meter),
-        track_(ReadTrack(options.marks)),
+        track_(ReadTrack(options.marks, *options.source)),
         length_secs_(LengthOf(options)),
         reader_(*options.source, context.scene) {
     if (!options.report->empty()) sensitivity_.emplace(context.scene, length_secs_, reader_);
@@ -155,6 +156,11 @@ class Recording {
   std::vector<TrialMark> MarksOfTrial() const {
     if (last_ == nullptr) return {};
     return MarksOf(track_, *first_, *last_);
+  }
+  std::set<std::string> Names() const {
+    std::set<std::string> names;
+    for (const auto& [character, trial] : trials_) names.insert(trial.newest().name);
+    return names;
   }
   double rate_hz() const { return reader_.rate_hz(); }
   const std::map<int, LoadTrial>& trials() const { return trials_; }
@@ -263,6 +269,7 @@ bool Loads(LoadsOptions& options, const options::OptionList& list) {
   context.rate_hz = recording.rate_hz();
   recording.Read();
   context.marks = recording.MarksOfTrial();
+  context.people = recording.Names();
   if (options.marks.IsGiven() && context.marks.empty()) {
     spdlog::warn("{}: has no mark of this recording", *options.marks);
   }

@@ -195,7 +195,7 @@ std::string MethodText(const LoadTrial& trial, const TrialContext& context) {
 
 std::vector<std::string> TrustNotesOf(const LoadTrial& trial, const TrialContext& context) {
   std::vector<std::string> notes;
-  const std::string changes = ChangesText(context.marks);
+  const std::string changes = ChangesText(context.marks, trial.newest().name, context.people);
   if (!changes.empty()) notes.push_back(changes);
   const double all = trial.secs();
   NoteUnknownJoints(trial, notes);

@@ -9,6 +9,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/starts_with.h"
+#include "core/system/words.h"
 #include "server/table/load_rows.h"
 
 namespace kinescope::app {
@@ -21,6 +22,16 @@ bool ChangesLoads(const std::string& text) {
                                            "class limits: "};
   return std::any_of(std::begin(kOfLoads), std::end(kOfLoads),
                      [&](std::string_view begin) { return StartsWith(text, begin); });
+}
+
+// "mass of Ben: 80 kg → 95 kg" in a recording of Ann and Ben, of Ann.
+bool IsOfAnother(const std::string& text, const std::string& name,
+                 const std::set<std::string>& people) {
+  const std::string lower = Lower(text);  // a bag has the names of models: "ben"
+  const auto is_of = [&](const std::string& other) {
+    return lower.find(" of " + Lower(other) + ": ") != std::string::npos;
+  };
+  return !is_of(name) && std::any_of(people.begin(), people.end(), is_of);
 }
 
 }  // namespace
@@ -37,12 +48,14 @@ std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& 
   return found;
 }
 
-std::string ChangesText(const std::vector<TrialMark>& marks) {
+std::string ChangesText(const std::vector<TrialMark>& marks, const std::string& name,
+                        const std::set<std::string>& people) {
   constexpr std::size_t kMost = 4;
   std::string changes;
   std::size_t count = 0;
   for (const TrialMark& mark : marks) {
     if (!mark.is_change || !ChangesLoads(mark.text)) continue;
+    if (IsOfAnother(mark.text, name, people)) continue;
     if (++count > kMost) continue;
     changes += fmt::format("{}{} at {}", count == 1 ? "" : ", ", mark.text, TimesText(mark));
   }

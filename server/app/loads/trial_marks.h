@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +27,11 @@ struct TrialMark {
 std::vector<TrialMark> MarksOf(const marks::MarkTrack& track, const SceneState& first,
                                const SceneState& last);
 
-/// What was changed during the trial, in one sentence: loads are computed with what held when it
-/// was begun. "" if nothing was, or only how it looked.
-std::string ChangesText(const std::vector<TrialMark>& marks);
+/// What was changed during the trial of the person called `name`, in one sentence: loads are
+/// computed with what held when it was begun. "" if nothing was, or only how it looked, or of
+/// others in the recording, whose names are among those of all `people`.
+std::string ChangesText(const std::vector<TrialMark>& marks, const std::string& name,
+                        const std::set<std::string>& people);
 
 /// The loads of one person around a mark: of a moment within marks::kWindowNanos before and after
 /// it, of a span within the span.

@@ -47,7 +47,7 @@ class RenderRun {
         provenance_(options, plan.source, pool.info()),
         check_(provenance_, settings),
         additions_(options.view, options.backend, people_),
-        track_(ReadTrack(options.marks)) {
+        track_(ReadTrack(options.marks, plan.source)) {
     CheckMoments();
     for (const Output& output : plan.outputs) AddOutput(output);
     Prescan();

@@ -11,6 +11,7 @@
 #include "core/system/clocks.h"
 #include "core/system/json_text.h"
 #include "render/camera/camera.h"
+#include "server/app/serve/change_notes.h"
 #include "server/scene/scene_options.h"
 
 namespace kinescope::app {
@@ -22,24 +23,6 @@ using nlohmann::json;
 constexpr std::int64_t kStatusEvery = kNanosPerSecond / 2;
 constexpr std::size_t kMostFiles = 1000;                   // listed
 constexpr double kShortestClip = 0.1, kLongestClip = 600;  // s
-
-std::string Kilograms(double mass) { return fmt::format("{:g} kg", mass); }
-
-std::string PercentText(const std::array<double, 2>& limits) {
-  return fmt::format("{:g} % and {:g} %", 100 * limits[0], 100 * limits[1]);
-}
-
-// As options and messages call a person.
-std::string NameOf(const PersonState& person) {
-  return person.name.empty() ? "person " + std::to_string(person.character) : person.name;
-}
-
-const PersonState* FindPerson(const SceneState* state, int character) {
-  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
-    if (state->people[i].character == character) return &state->people[i];
-  }
-  return nullptr;
-}
 
 // --hand_load; without the places of loads that are not at the grip.
 std::string HandLoadOption(const HandLoad& load) {
@@ -245,22 +228,7 @@ ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, std::
   if (!wrong.empty()) return RefuseOrder(400, wrong);
   const PersonModel& model = *person->model;
   PersonChange& stated = stated_[character];
-  const std::string who = NameOf(*person);
-  const urdf::BodyDescription& body = model.description;
-  if (change.mass_kg) {
-    log_.Note(role, "mass of " + who, Kilograms(stated.mass_kg.value_or(body.mass_kg)),
-              Kilograms(*change.mass_kg));
-  }
-  if (change.sex) {
-    log_.Note(role, "sex of " + who, Name(stated.sex.value_or(body.sex)), Name(*change.sex));
-  }
-  if (change.height_m) {
-    const double before = stated.height_m.value_or(model.human.skeleton.height);
-    log_.Note(role, "stature of " + who, fmt::format("{:.3g} m", before),
-              fmt::format("{:.3g} m", *change.height_m));
-  }
-  if (change.name)
-    log_.Note(role, "name of person " + std::to_string(character), who, *change.name);
+  NoteChange(log_, role, *person, stated, change);
   stated.Add(change);
   parts_.changes.Put(character, change);
   status_due_nanos_ = 0;
@@ -287,7 +255,7 @@ ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& lim
                                                 std::string_view role) {
   const std::string wrong = FindDefect(limits);
   if (!wrong.empty()) return RefuseOrder(400, wrong);
-  log_.Note(role, "class limits", PercentText(ClassLimitsNow()), PercentText(limits));
+  NoteClassLimits(log_, role, ClassLimitsNow(), limits);
   class_limits_ = limits;
   parts_.changes.Put(limits);
   status_due_nanos_ = 0;
@@ -295,19 +263,13 @@ ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& lim
 }
 
 // As marks call a person.
-std::string ControlDesk::NameOfCharacter(int character) const {
-  const auto state = parts_.states.Get();
-  const PersonState* const person = FindPerson(state.get(), character);
-  return person != nullptr ? NameOf(*person) : std::to_string(character);
-}
-
 void ControlDesk::OnHandLoad(int character, const HandLoad& load, http::Role role) {
-  held_.OnOrder(character, NameOfCharacter(character), load, http::Name(role));
+  held_.OnOrder(character, NameOf(parts_.states.Get().get(), character), load, http::Name(role));
   status_due_nanos_ = 0;
 }
 
 void ControlDesk::OnRosHandLoad(int character, const HandLoad& load, std::int64_t now_nanos) {
-  held_.OnRos(character, NameOfCharacter(character), load, now_nanos);
+  held_.OnRos(character, NameOf(parts_.states.Get().get(), character), load, now_nanos);
 }
 
 void ControlDesk::OnCamera(const std::string& before, const std::string& after,

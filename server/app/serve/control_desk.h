@@ -109,7 +109,6 @@ class ControlDesk : public http::Controls {
   std::int64_t RunMicros() const;
   OptionTexts OptionsNow() const;
   std::array<double, 2> ClassLimitsNow() const;
-  std::string NameOfCharacter(int character) const;
   ControlStatus Look();
 
   const DeskParts parts_;

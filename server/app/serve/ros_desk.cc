@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "render/image/png_file.h"
+#include "server/app/serve/change_notes.h"
 #include "server/app/serve/operator_log.h"
 #include "server/http/answer.h"
 #include "server/scene/model_factory.h"
@@ -78,9 +79,12 @@ Refused ChangeOnPage(const RosDesk::Parts& parts, const SettingsChange& wanted) 
 
 Refused ChangeAlone(const RosDesk::Parts& parts, const SettingsChange& wanted) {
   Refused refused;
+  OperatorLog log(nullptr, parts.states);
+  const auto state = parts.states.Get();
   if (wanted.class_limits) {
     const std::string wrong = FindDefect(*wanted.class_limits);
     if (wrong.empty()) {
+      NoteClassLimits(log, kRosRole, state->class_limits, *wanted.class_limits);
       parts.changes.Put(*wanted.class_limits);
     } else {
       refused.push_back(wrong);
@@ -90,6 +94,9 @@ Refused ChangeAlone(const RosDesk::Parts& parts, const SettingsChange& wanted) {
     const First first = FirstOf(parts);
     const std::string wrong = first.character ? FindDefect(wanted.person) : first.why_not;
     if (wrong.empty()) {
+      if (const PersonState* const person = FindPerson(state.get(), *first.character)) {
+        NoteChange(log, kRosRole, *person, {}, wanted.person);
+      }
       parts.changes.Put(*first.character, wanted.person);
     } else {
       refused.push_back(wrong);

@@ -2,11 +2,16 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/app/commands.h"
 #include "server/app/log.h"
 #include "server/app/serve/page_token.h"
@@ -20,14 +25,47 @@
 namespace kinescope::app {
 namespace {
 
+// @throws UsageError if an option cannot have such a value
+options::Found ValueOf(const ros_bridge::NodeParameter& parameter, const options::Option& option) {
+  using Kind = ros_bridge::NodeParameter::Kind;
+  options::Found found{"", "~"};
+  switch (parameter.kind) {
+    case Kind::kText: found.text = parameter.texts.front(); return found;
+    case Kind::kSwitch: {
+      const std::string word = parameter.texts.front() == "true" ? "on" : "off";
+      const std::vector<std::string> words = option.value->Names();
+      const bool is_word = std::find(words.begin(), words.end(), word) != words.end();
+      found.text = is_word ? word : parameter.texts.front();
+      return found;
+    }
+    case Kind::kList:
+      if (option.value->is_repeatable() && !parameter.texts.empty()) {
+        found.texts = parameter.texts;
+        return found;
+      }
+      throw UsageError("~" + option.name + ": is a list; expected one value");
+    case Kind::kOther: break;
+  }
+  throw UsageError("~" + option.name + ": is a map of names and values; expected one value");
+}
+
 // Private parameters of this node: ~name.
-void ReadParameters(const ServeOptions& options, options::OptionList& list) {
+void ReadParameters(const ServeOptions& options, const std::string& command,
+                    options::OptionList& list) {
   if (*options.ros == ros_bridge::RosMode::kOff || !ros_bridge::BuiltWithRos()) return;
+  const auto& parameters = ros_bridge::PrivateParameters();
+  for (const auto& [name, parameter] : parameters) {
+    const bool may_be_namespace = parameter.kind == ros_bridge::NodeParameter::Kind::kOther;
+    if (may_be_namespace || list.Find(name) != nullptr) continue;
+    spdlog::warn("~{}: kinescope {} has no such parameter; it is not used{}", name, command,
+                 SuggestionFor(name, list.Names()));
+  }
   options::SetFrom(
-      [](const std::string& name) -> std::optional<options::Found> {
-        const auto text = ros_bridge::PrivateParameter(name);
-        if (!text) return std::nullopt;
-        return options::Found{*text, "~"};
+      [&](const std::string& name) -> std::optional<options::Found> {
+        const auto parameter = parameters.find(name);
+        const options::Option* const option = list.Find(name);
+        if (parameter == parameters.end() || option == nullptr) return std::nullopt;
+        return ValueOf(parameter->second, *option);
       },
       options::Channel::kParameter, list);
 }
@@ -46,8 +84,8 @@ Command Make(const char* name, const char* about, bool with_page) {
   command.footer =
       "Every option is also a private ROS parameter: ~name. Order of precedence: command "
       "line, ROS parameter, --config file.";
-  command.run = [values, with_page](options::OptionList& list) {
-    ReadParameters(*values, list);
+  command.run = [values, with_page, name = command.name](options::OptionList& list) {
+    ReadParameters(*values, name, list);
     for (const char* which : {"token", "token_file", "viewer_token", "viewer_token_file"}) {
       const options::Option* option = list.Find(which);
       if (option != nullptr) CheckTokenIsGiven(option->given_as, option->value->ToText());

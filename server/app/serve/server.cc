@@ -13,6 +13,7 @@
 #include "core/system/json_text.h"
 #include "core/system/stop_signal.h"
 #include "server/alarms/alarm_json.h"
+#include "server/app/serve/change_notes.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/input_merger.h"
 #include "server/http/answer.h"
@@ -141,6 +142,8 @@ Server::Server(const ServeConfig& config)
   if (config.page) {
     StartControls(config);
     StartPage(config);
+  } else {
+    bridge_loads_ = std::make_unique<HandLoadLog>(bridge_log_, config.scene.loads.hands);
   }
   ros_desk_.Open({states_, builder_.InitialModel(), changes_, live_pictures_.get(),
                   page_ ? &*page_ : nullptr, desk_.get(), recordings_});
@@ -300,7 +303,9 @@ void Server::Run() {
       },
       &changes_,
       [this](int character, const HandLoad& load) {
-        if (desk_) desk_->OnRosHandLoad(character, load, source_->now_nanos());
+        const std::int64_t now = source_->now_nanos();
+        if (desk_) return desk_->OnRosHandLoad(character, load, now);
+        bridge_loads_->OnRos(character, NameOf(states_.Get().get(), character), load, now);
       },
       [this](const std::string& text) { ros_news_->OnMark(text); },
       [this] { return source_->now_nanos(); });
@@ -346,6 +351,7 @@ void Server::OnTime(std::int64_t now_nanos) {
   builder_.Tick(now_nanos);
   alarms_.OnTime(now_nanos, stream_meter_.health().recent_loss);
   if (desk_) desk_->OnTime(now_nanos);
+  if (bridge_loads_) bridge_loads_->OnTime(now_nanos);
   if (ros_news_) ros_news_->OnTime(now_nanos, stream_meter_.health());
   if (now_nanos < counters_due_nanos_) return;
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;

@@ -18,10 +18,12 @@
 #include "server/app/serve/clip_maker.h"
 #include "server/app/serve/control_desk.h"
 #include "server/app/serve/crowd_warning.h"
+#include "server/app/serve/hand_load_log.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/liveness_log.h"
 #include "server/app/serve/missing_pose_warning.h"
+#include "server/app/serve/operator_log.h"
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/ros_desk.h"
@@ -106,6 +108,8 @@ class Server {
   std::int64_t counters_due_nanos_ = 0;
   SceneBuilder builder_;
   const GhostPose ghost_;
+  OperatorLog bridge_log_{nullptr, states_};
+  std::unique_ptr<HandLoadLog> bridge_loads_;  // of a bridge; of a page the desk has one
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<http::MeshServer> meshes_;  // made by a thread of ros_, when it needs one

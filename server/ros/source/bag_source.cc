@@ -27,6 +27,7 @@
 #include "server/ros/source/common_frame.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/motion_joiner.h"
+#include "server/ros/source/recorded_loads.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/stamp.h"
 
@@ -178,7 +179,7 @@ class BagSource : public Source {
   }
   bool IsUsed(const BagConnection& connection) const {
     return HasTransforms(connection) || IsLinkStates(connection) ||
-           surroundings_.IsUsed(connection);
+           RecordedLoads::IsOne(connection) || surroundings_.IsUsed(connection);
   }
 
   void ReadNames();
@@ -227,6 +228,7 @@ class BagSource : public Source {
   xsens_mvn_ros_msgs::LinkStateArray link_states_;
   TransformPeople people_{0};
   MotionJoiner joiner_;
+  RecordedLoads recorded_loads_;
   CommonFrame common_frame_;
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
@@ -455,6 +457,10 @@ Source::State BagSource::End() {
   has_ended_ = true;
   people_.End(counters_);
   WarnOfUnused();
+  for (const std::string& text : recorded_loads_.Texts()) {
+    spdlog::info("bag '{}': {}; those of its motion are computed with --mass and --hand_load",
+                 name_, text);
+  }
   const BagReader::Ending& ending = messages_.ending();
   if (ending.kind == BagReader::Ending::Kind::kDamaged && messages_.read() > 0) {
     spdlog::warn("{}", WhyDamaged(messages_));
@@ -483,6 +489,7 @@ void BagSource::WarnOfUnused() const {
 }
 
 void BagSource::Take(const BagMessage& message) {
+  if (RecordedLoads::IsOne(*message.connection)) return recorded_loads_.Take(message);
   ++counters_.datagrams;
   counters_.bytes += message.size;
   if (IsLinkStates(*message.connection)) return TakeLinkStates(message);

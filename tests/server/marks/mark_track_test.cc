@@ -65,7 +65,7 @@ std::vector<std::string> Texts(const std::vector<const TrackMark*>& marks) {
 }
 
 TEST(MarkTrack, TellsMomentsForTheirWindowAndSpansWhileTheyLast) {
-  for (const TrackClock clock : {TrackClock::kServer, TrackClock::kTimeCode}) {
+  for (const TrackClock clock : {TrackClock::kServer, TrackClock::kTimeCode, TrackClock::kStamp}) {
     const MarkTrack track({Span("lift", 2, 0.5, 10), Named("slip", 1, 2)}, clock);
     EXPECT_THAT(Texts(track.At(SceneAt(0.4))), IsEmpty());
     EXPECT_THAT(Texts(track.At(SceneAt(0.5))), ElementsAre("lift"));
@@ -96,6 +96,16 @@ TEST(MarkTrack, MarksOfAnotherTimeAreNotOfThisRecording) {
   EXPECT_THAT(track.Between(SceneAt(0, 1, false), SceneAt(9, 1, false)), ::testing::SizeIs(1))
       << "a recording that does not know its day";
   EXPECT_THAT(track.Between(SceneAt(2.1), SceneAt(9)), IsEmpty());
+}
+
+TEST(MarkTrack, FindsMarksByTheirStampsWhereTimeCodesAreOfAnotherClock) {
+  SceneState first = SceneAt(0), last = SceneAt(9);
+  first.time_code_millis = 0;  // of a bag: since its first sample
+  last.time_code_millis = 9'000;
+  const MarkTrack track({Named("slip", 1, 2)}, TrackClock::kStamp);
+  const auto found = track.Between(first, last);
+  ASSERT_THAT(Texts(found), ElementsAre("slip"));
+  EXPECT_DOUBLE_EQ(track.SecsAfter(first, found[0]->from_nanos), 2);
 }
 
 TEST(ReadMarks, SaysWhatIsWrongWithAFile) {

@@ -1,5 +1,6 @@
 // Parameters and options against a real master: each test runs in a process of its own
 // (bridge_fixture.h).
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <xmlrpcpp/XmlRpcClient.h>
@@ -294,7 +295,15 @@ TEST_F(RosBridgeWithMaster, WritesTheMeshesOfAtMostOneBodyPerSecond) {
   EXPECT_TRUE(meshes.back()->is_provided());
 }
 
-TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCommandLine) {
+// "" if there is none.
+std::string ParameterText(const std::string& name) {
+  const auto found = PrivateParameters().find(name);
+  return found == PrivateParameters().end()
+             ? ""
+             : fmt::format("{}", fmt::join(found->second.texts, ";"));
+}
+
+TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyTypeAndPrefersTheCommandLine) {
   EXPECT_THAT(remaining_, ElementsAre("test", "left", "right"));
   StartMaster();
   const auto set = [](const std::string& name, const XmlRpc::XmlRpcValue& value) {
@@ -309,13 +318,25 @@ TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCo
   set("rviz", XmlRpc::XmlRpcValue(true));
   XmlRpc::XmlRpcValue list;
   list[0] = 1;
+  list[1] = std::string("two");
   set("list", list);
-  EXPECT_EQ(PrivateParameter("udp_port"), "8001") << "_udp_port:=8001 was on the command line";
-  EXPECT_EQ(PrivateParameter("rate"), "2.5");
-  EXPECT_EQ(PrivateParameter("model_name"), "anna");
-  EXPECT_EQ(PrivateParameter("rviz"), "true");
-  EXPECT_EQ(PrivateParameter("list"), std::nullopt);
-  EXPECT_EQ(PrivateParameter("never_set"), std::nullopt);
+  XmlRpc::XmlRpcValue map;
+  map["right"] = 5;
+  set("map", map);
+  list[2] = map;
+  set("list_of_maps", list);
+  EXPECT_EQ(ParameterText("udp_port"), "8001") << "_udp_port:=8001 was on the command line";
+  EXPECT_EQ(ParameterText("rate"), "2.5");
+  EXPECT_EQ(ParameterText("model_name"), "anna");
+  EXPECT_EQ(ParameterText("rviz"), "true");
+  EXPECT_EQ(ParameterText("list"), "1;two");
+  EXPECT_EQ(ParameterText("never_set"), "");
+  const auto kind_of = [](const char* name) { return PrivateParameters().at(name).kind; };
+  EXPECT_EQ(kind_of("rate"), NodeParameter::Kind::kText);
+  EXPECT_EQ(kind_of("rviz"), NodeParameter::Kind::kSwitch);
+  EXPECT_EQ(kind_of("list"), NodeParameter::Kind::kList);
+  EXPECT_EQ(kind_of("map"), NodeParameter::Kind::kOther);
+  EXPECT_EQ(kind_of("list_of_maps"), NodeParameter::Kind::kOther);
 
   MakeBridge();  // shows the arguments to `rosparam get`
   XmlRpc::XmlRpcValue arguments;
@@ -327,8 +348,8 @@ TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCo
 }
 
 TEST_F(RosBridgeWithMaster, ReadsTheCommandLineWithoutAMaster) {
-  EXPECT_EQ(PrivateParameter("tf"), "tree");
-  EXPECT_EQ(PrivateParameter("never_set"), std::nullopt);
+  EXPECT_EQ(ParameterText("tf"), "tree");
+  EXPECT_EQ(ParameterText("never_set"), "");
   EXPECT_THROW((void)MakeRosBridge({}, RosMode::kRequired), UsageError);
   EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
 }

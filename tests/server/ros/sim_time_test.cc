@@ -59,7 +59,8 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
   }
 
   void PublishSampleOfNow() {
-    PersonState person = MakePerson(model_, Posture(0), ++counter_, WallNanos());
+    sampled_nanos_ = WallNanos();
+    PersonState person = MakePerson(model_, Posture(0), ++counter_, sampled_nanos_);
     person.com = Eigen::Vector3d(0, 0, 1);
     Publish(SceneWith(std::move(person)));
   }
@@ -86,6 +87,21 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
     return stamps_;
   }
 
+  // The newest sample again, as the state of another person has it, while the clock goes on
+  // unevenly from `start`.
+  void RepeatSample(double start) {
+    constexpr int kTimes = 60;
+    PersonState person = MakePerson(model_, Posture(0), counter_, sampled_nanos_);
+    person.com = Eigen::Vector3d(0, 0, 1);
+    for (int i = 1; i <= kTimes; ++i) {
+      rosgraph_msgs::Clock tick;
+      tick.clock = ros::Time(start + 0.01 * i * i);
+      clock_.publish(tick);
+      EXPECT_TRUE(Within(kTestPatience, [&] { return ros::Time::now() >= tick.clock; }));
+      Publish(SceneWith(person));
+    }
+  }
+
   // Of the last Run(), s. A busy machine makes some large.
   double MedianError() const {
     std::vector<double> errors = errors_;
@@ -108,6 +124,7 @@ class RosBridgeWithASimulator : public RosBridgeWithMaster {
   ros::Publisher clock_;
   ros::Subscriber com_;
   std::vector<double> stamps_, errors_;  // s
+  std::int64_t sampled_nanos_ = 0;
   std::optional<std::uint32_t> last_seq_;
 };
 
@@ -125,6 +142,16 @@ TEST_F(RosBridgeWithASimulator, StampsWithItsTimeAndFollowsItWhenItStartsOver) {
         << "tf2 drops what has the stamp of the transform before: "
         << ::testing::PrintToString(stamps);
   }
+}
+
+TEST_F(RosBridgeWithASimulator, PublishesASampleOnceAlsoWhenItsTimeIsKnownBetter) {
+  StartMasterWithSimulatedTime();
+  MakeBridge();
+  StartSimulator();
+  Run(100, 5);
+  const std::uint64_t before = bridge_->status().published;
+  RepeatSample(110);
+  EXPECT_EQ(bridge_->status().published, before);
 }
 
 }  // namespace

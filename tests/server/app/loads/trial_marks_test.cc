@@ -49,7 +49,10 @@ TEST(TrialMarks, SayThatNoLoadIsKnown) {
 
 TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
   TrialContext context;
-  EXPECT_EQ(ChangesText(context.marks), "");
+  const auto changes_of = [&](const std::string& name) {
+    return ChangesText(context.marks, name, {"Demo", "Ben"});
+  };
+  EXPECT_EQ(changes_of("Demo"), "");
   for (const char* text :
        {"camera of the server picture: front → left", "grasp",
         "hand load of Demo: unknown → right 7 kg", "recording: off → a.pcapng"}) {
@@ -60,10 +63,12 @@ TEST(TrialMarks, SayWhatWasChangedWhileLoadsWereComputedAsAtTheBeginning) {
   const std::string expected =
       "Computed with what held at the beginning, although this was changed: hand load of Demo: "
       "unknown → right 7 kg at 3.00 s.";
-  EXPECT_EQ(ChangesText(context.marks), expected);
+  EXPECT_EQ(changes_of("Demo"), expected);
+  EXPECT_EQ(changes_of("Ben"), "") << "of another";
+  EXPECT_EQ(ChangesText(context.marks, "p1", {"p1"}), expected) << "of a name that it had";
   EXPECT_EQ(NotesOf(CountedTrial(), context).front(), expected);
   context.marks.assign(9, context.marks[2]);
-  EXPECT_THAT(ChangesText(context.marks), ::testing::EndsWith(" and 5 more."));
+  EXPECT_THAT(changes_of("Demo"), ::testing::EndsWith(" and 5 more."));
 }
 
 // A key that was held down all day.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <kinescope/JointLoadArray.h>
 #include <std_msgs/String.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "core/system/clocks.h"
 #include "server/ros/link_states.h"
+#include "tests/captured_log.h"
 #include "tests/server/ros/source/written_bag.h"
 #include "tests/shared_data.h"
 #include "tests/system/run_program.h"
@@ -39,6 +41,28 @@ void ExpectMotion(const BodySample& sample, const PersonState& person) {
   const SegmentState& sent = person.sample.segments[urdf::kLeftHand];
   EXPECT_EQ(got.velocity, sent.velocity);
   EXPECT_EQ(got.angular_acceleration, sent.angular_acceleration);
+}
+
+TEST_F(BagTest, SaysWhatItsJointLoadsWereComputedWith) {
+  const std::string path = Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 20; ++n) {
+      const ros::Time now = RosTimeOf(kBagStart + n * kBagPeriod);
+      bag.write("/tf", now, TransformsOf(PersonAt(n, "anna")));
+      kinescope_ros::JointLoadArray loads;
+      loads.body_mass = n < 10 ? 80 : 95;
+      loads.held_mass[urdf::kLeft] = n < 5 ? 0 : 3;
+      bag.write("/anna/joint_loads", now, loads);
+      loads.body_mass_assumed = 1;
+      loads.held_mass[urdf::kLeft] = 0;
+      bag.write("/ben/joint_loads", now, loads);
+    }
+  });
+  const kinescope::testing::CapturedLog log;
+  EXPECT_EQ(ReadBag(path).samples.size(), 20U);
+  EXPECT_THAT(log.text(),
+              HasSubstr("the joint loads of /anna/joint_loads were computed with a body "
+                        "mass of 80 to 95 kg and up to 3 kg in the left hand; those"));
+  EXPECT_THAT(log.text(), ::testing::Not(HasSubstr("/ben")));
 }
 
 // Loads are those of the motion then, and not of someone who stands still.
