@@ -2,15 +2,13 @@
 
 #include "core/system/errors.h"
 #include "server/marks/mark_file.h"
-#include "server/source/open_source.h"
 
 namespace kinescope::app {
 
-marks::MarkTrack ReadTrack(const options::FilePath& value, const std::string& source) {
+marks::MarkTrack ReadTrack(const options::FilePath& value, bool is_of_ros) {
   if (!value.IsGiven()) return {};
   const auto marks = marks::ReadMarks(*value);
   if (!marks) throw UsageError("--marks=" + marks.error());
-  const bool is_of_ros = KindOfSource(source) == SourceKind::kGraph || IsBag(source);
   return {*marks, is_of_ros ? marks::TrackClock::kStamp : marks::TrackClock::kTimeCode};
 }
 

@@ -15,8 +15,8 @@ inline constexpr const char* kMarksHelp =
     "file of marks (--marks_file of serve): what was marked at the time code of a sample is shown, "
     "of a ROS bag what was marked at its stamp";
 
-/// For what `source` has recorded. Empty without a file. @throws UsageError with the reason
-marks::MarkTrack ReadTrack(const options::FilePath& value, const std::string& source);
+/// Empty without a file. `is_of_ros`: for a recording of ROS. @throws UsageError with the reason
+marks::MarkTrack ReadTrack(const options::FilePath& value, bool is_of_ros);
 
 /// As pictures and reports show it: "3  belt slipped".
 std::string CaptionOf(const marks::Mark& mark);

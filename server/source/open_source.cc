@@ -69,6 +69,10 @@ bool IsBag(const std::string& url) {
   return mvn::KindOf(OpenInputFile(url).head()) == mvn::RecordingKind::kRosBag;
 }
 
+bool IsOfRos(const std::string& url) {
+  return KindOfSource(url) == SourceKind::kGraph || IsBag(url);
+}
+
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
   if (KindOfSource(url) != SourceKind::kFile) CheckNeedsNoBag(url, settings);
   switch (KindOfSource(url)) {

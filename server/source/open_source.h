@@ -40,6 +40,8 @@ struct Hindrance {
 
 /// Whether `url` names a file that is a ROS bag. A pipe is none.
 [[nodiscard]] bool IsBag(const std::string& url);
+/// Whether it is a graph of ROS or a bag, which keep stamps and no time codes of a suit.
+[[nodiscard]] bool IsOfRos(const std::string& url);
 
 /// Opens a file or the built-in subject at its true rate: samples are delivered when they are due,
 /// stamped with the current time. `loop` starts over at the end; counters and time continue.

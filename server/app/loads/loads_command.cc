@@ -33,6 +33,7 @@
 #include "server/scene/new_samples.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/open_source.h"
 #include "server/source/scheme.h"
 #include "server/source/source_identity.h"
 #include "server/table/output_file.h"
@@ -120,7 +121,7 @@ class Recording {
   Recording(const LoadsOptions& options, const TrialContext& context)
       : options_(options),
         meter_(context.scene.loads.meter),
-        track_(ReadTrack(options.marks, *options.source)),
+        track_(ReadTrack(options.marks, IsOfRos(*options.source))),
         length_secs_(LengthOf(options)),
         reader_(*options.source, context.scene) {
     if (!options.report->empty()) sensitivity_.emplace(context.scene, length_secs_, reader_);

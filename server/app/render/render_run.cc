@@ -21,6 +21,7 @@
 #include "server/app/render/resume_check.h"
 #include "server/picture/moving_robots.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/open_source.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
@@ -47,7 +48,7 @@ class RenderRun {
         provenance_(options, plan.source, pool.info()),
         check_(provenance_, settings),
         additions_(options.view, options.backend, people_),
-        track_(ReadTrack(options.marks, plan.source)) {
+        track_(ReadTrack(options.marks, IsOfRos(plan.source))) {
     CheckMoments();
     for (const Output& output : plan.outputs) AddOutput(output);
     Prescan();
