@@ -92,11 +92,33 @@ const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool 
     SetBack();
     if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
   }
-  Moving& moving = moving_[frame];
+  if (known != moving_.end() && IsSetBack(known->second, transform.header.stamp)) {
+    SetBack();
+    if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
+  }
+  Moving& moving = moving_.try_emplace(frame, Moving{{}, 0, 0, round_}).first->second;
   moving.too_old_in_a_row = 0;
   if (!(transform.header.stamp < moving.newest.header.stamp)) moving.newest = transform;
   Note(frame, transform);
   return nullptr;
+}
+
+// Of a bag that is shorter than what tf2 keeps, and played in a loop, the newest transforms would
+// stay those of the last round. Once one frame has shown it, others need one transform. Two senders
+// of one frame, one of them late, take turns.
+bool TfTree::IsSetBack(Moving& moving, const ros::Time& stamp) {
+  constexpr int kBehindForAJump = 5;
+  const ros::Duration kBehind(0.5);
+  if (moving.newest.header.stamp - stamp <= kBehind) {
+    moving.behind_in_a_row = 0;
+    moving.round = round_;
+    return false;
+  }
+  ++moving.behind_in_a_row;
+  if (moving.round != round_) return true;
+  if (moving.behind_in_a_row < kBehindForAJump) return false;
+  ++round_;
+  return true;
 }
 
 // tf2 can only forget all moving frames: those that are not too old get their newest transform
@@ -104,7 +126,7 @@ const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool 
 void TfTree::SetBack() {
   buffer_.clear();  // static ones stay
   for (auto each = moving_.begin(); each != moving_.end();) {
-    if (each->second.too_old_in_a_row == 0) {
+    if (each->second.too_old_in_a_row == 0 && each->second.behind_in_a_row == 0) {
       buffer_.setTransform(each->second.newest, "/tf", false);
       ++each;
     } else {

@@ -45,7 +45,8 @@ class TfTree {
 
   /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
   /// an invalid quaternion) or older than all that are kept, and returns why: one for each kind. If
-  /// nothing else comes of a frame, its time was set back: what was kept of it is forgotten then.
+  /// nothing else comes of a frame, or only what is half a second older than its newest, time was
+  /// set back, as by a bag in a loop: what was kept of it is forgotten then.
   std::vector<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
 
   /// Whether `frame` is among those of other nodes.
@@ -65,13 +66,19 @@ class TfTree {
  private:
   /// Null: it is taken.
   const char* Take(const geometry_msgs::TransformStamped& transform, bool is_static);
-  void SetBack();
-  void Note(const std::string& frame, const geometry_msgs::TransformStamped& transform);
 
   struct Moving {
     geometry_msgs::TransformStamped newest;
     int too_old_in_a_row = 0;  // refused since
+    int behind_in_a_row = 0;   // taken since, but much older
+    int round = 0;             // round_ when it was last continued
   };
+
+  void SetBack();
+  bool IsSetBack(Moving& moving, const ros::Time& stamp);
+  void Note(const std::string& frame, const geometry_msgs::TransformStamped& transform);
+
+  int round_ = 0;  // times that time was set back by less than tf2 keeps
   tf2::BufferCore buffer_;
   std::unordered_map<std::string, TreeFrame> frames_;     // by name, as tf2 has them
   std::unordered_map<std::string, Moving> moving_;        // those that are not static

@@ -33,17 +33,25 @@ namespace {
 using namespace kinescope;
 using namespace kinescope::ros_bridge;
 
-void CheckMarkers(const std::vector<visualization_msgs::Marker>& markers) {
+// A frame that turns: by a radian a second.
+FramePlace PlaceAt(std::int64_t stamp_nanos) {
+  const double radians = 1e-9 * static_cast<double>(stamp_nanos % 1'000'000'000);
+  const Eigen::AngleAxisd turn(radians, Eigen::Vector3d::UnitZ());
+  return FramePlace{{Eigen::Vector3d::Zero(), Eigen::Quaterniond(turn)}};
+}
+
+template <class Message>
+void CheckMarkers(const std::vector<Message>& markers) {
   MarkerStore store;
   std::int64_t now = 0;
-  for (const visualization_msgs::Marker& marker : markers) {
+  for (const Message& marker : markers) {
     now += 200'000'000;
-    if (const auto refusal = store.Apply(0, marker, now)) {
+    if (const auto refusal = store.Apply(0, marker, now, {}, {}, SweepOf(marker))) {
       KINESCOPE_CHECK(*refusal->kind != '\0' && !refusal->text.empty());
     }
     // The pose of a frame is that of its message, as far as this knows; every other frame is lost.
-    static_cast<void>(store.Update(now, [](const std::string& frame, std::int64_t) {
-      return frame.size() % 2 == 0 ? std::make_optional(FramePlace{}) : std::nullopt;
+    static_cast<void>(store.Update(now, [](const std::string& frame, std::int64_t stamp) {
+      return frame.size() % 2 == 0 ? std::make_optional(PlaceAt(stamp)) : std::nullopt;
     }));
     for (const WithoutPlace& lost : store.TakeLost()) {
       KINESCOPE_CHECK(!lost.Text(TfTree(), "world").empty());

@@ -294,6 +294,41 @@ TEST(Frames, AreThoseOfTheNewTimeAfterTimeWasSetBack) {
   EXPECT_EQ(x("wall"), 4) << "a static frame is sent once";
 }
 
+// tf2 takes all of it, and the newest transforms would be those of the last round.
+TEST(Frames, AreThoseOfTheNewRoundOfAShortBagInALoop) {
+  TfTree tf;
+  const auto add = [&](const std::string& child, double x, double secs) {
+    tf2_msgs::TFMessage message = Frame("world", child, x);
+    message.transforms[0].header.stamp = ros::Time(secs);
+    EXPECT_TRUE(tf.Add(message, false).empty());
+  };
+  const auto newest = [&](const std::string& frame) {
+    const auto pose = tf.Find("world", frame, 0);
+    return pose ? pose->pose.position.x() : kNan;
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i <= 80; ++i) {  // of 8 s
+      const double secs = 100 + 0.1 * i;
+      add("odom", secs, secs);
+      if (i % 10 == 0) add("slow", secs, secs);
+      const bool is_known = round == 0 || i >= 4;
+      if (is_known) EXPECT_EQ(newest("odom"), secs) << "round " << round;
+      if (is_known && i % 10 == 0) EXPECT_EQ(newest("slow"), secs) << "round " << round;
+    }
+  }
+}
+
+TEST(Frames, OfASenderThatIsLateDoNotTakeTheTimeOfAnotherBack) {
+  TfTree tf;
+  for (int i = 0; i < 60; ++i) {
+    const bool is_late = i % 3 != 0;
+    tf2_msgs::TFMessage message = Frame("world", "odom", is_late ? 1 : 2);
+    message.transforms[0].header.stamp = ros::Time(100 + 0.1 * i - (is_late ? 2 : 0));
+    EXPECT_TRUE(tf.Add(message, false).empty());
+    EXPECT_EQ(tf.Find("world", "odom", 0).value().pose.position.x(), 2);
+  }
+}
+
 // One message of the future: tf2 refused all that came then, with two lines each.
 TEST(Frames, OfOneThatWasInTheFutureComeBackAndOthersStay) {
   TfTree tf;

@@ -203,6 +203,7 @@ TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
   ros::Publisher hands = Advertise<kinescope_ros::HandLoad>("/kinescope/hand_load");
   hands.publish(kinescope_ros::HandLoad());
   ASSERT_TRUE(Spin([&] { return loads_->held_mass[0] == 0; }));
+  EXPECT_EQ(WaitForLine(*program_, "ros changed hand load of Demo: "), "unknown → 2 kg right");
 }
 
 TEST_F(LoadsOverRos, ReceiveInputsAgainAfterARestartOfTheMaster) {

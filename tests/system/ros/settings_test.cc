@@ -86,6 +86,22 @@ TEST_F(SettingsOverRos, ChangeTheBridgeAlsoAfterARestartOfTheMasterAndRefuseWhat
   const std::string now = Dynparam({"get", "/kinescope"});
   EXPECT_THAT(now, HasSubstr("'class_medium': 0.4"));
   EXPECT_THAT(now, HasSubstr("'mass': 300.0")) << "the nearest that may be";
+  EXPECT_THAT(WaitForLine(*program_, "ros changed class limits: "), HasSubstr("→ 40 % and 60 %"));
+  EXPECT_THAT(WaitForLine(*program_, "ros changed mass of Demo: "), HasSubstr("→ 300 kg"));
+}
+
+TEST_F(SettingsOverRos, NameParametersThatAreNoneOrHaveNoValue) {
+  ros::param::set("/kinescope/mas", 82.5);
+  ros::param::set("/kinescope/tf", false);  // as YAML reads off
+  ros::param::set("/kinescope/hand_load", std::map<std::string, double>{{"right", 5}});
+  const std::string command = "bridge demo:lift --ros required";
+  const auto refused = Start(command);
+  EXPECT_THAT(WaitForLine(*refused, "~mas: "), HasSubstr("nearest: mass"));
+  EXPECT_THAT(WaitForLine(*refused, "~hand_load: "), HasSubstr("expected one value"));
+  EXPECT_EQ(refused->WaitForEnd(), 2);
+  ros::param::set("/kinescope/hand_load", "right:5");
+  program_ = Start(command);
+  WaitForLine(*program_, "live: ");
 }
 
 }  // namespace
