@@ -235,9 +235,8 @@ void MarkerInbox::TellOfOtherTree(const std::string& frame) {
   has_told_of_trees_ = true;
   spdlog::warn(
       "what hangs on '{}' in TF is shown once a transform connects it with '{}', in which the "
-      "scene "
-      "stands: let a node publish one, such as static_transform_publisher of tf2_ros, or start "
-      "with --reference_frame {}, and people stand in '{}'",
+      "scene stands: let a node publish one, such as static_transform_publisher of tf2_ros, or "
+      "start with --reference_frame {}, and people stand in '{}'",
       root, frame_->name(), root, root);
 }
 

@@ -189,7 +189,7 @@ const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
 
 // 0 if its rays were measured at once, or if it does not say.
 double SweepSecsOf(const sensor_msgs::LaserScan& scan) {
-  constexpr double kLongest = 10;  // TF keeps no more
+  constexpr double kLongest = 10;  // s; TF keeps no more
   if (scan.ranges.size() < 2) return 0;
   const double secs =
       static_cast<double>(scan.ranges.size() - 1) * static_cast<double>(scan.time_increment);
