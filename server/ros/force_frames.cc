@@ -82,19 +82,19 @@ const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool 
     return nullptr;
   }
   const auto known = moving_.find(frame);
-  if (!buffer_.setTransform(transform, "/tf", false)) {
-    const bool is_known = known != moving_.end();
-    if (is_known && known->second.newest.header.stamp - transform.header.stamp < kKept) {
-      known->second.too_old_in_a_row = 0;
-      return nullptr;  // the same again, as of a simulator that pauses
-    }
+  const bool is_known = known != moving_.end(),
+             is_taken = buffer_.setTransform(transform, "/tf", false);
+  const ros::Time& stamp = transform.header.stamp;
+  if (!is_taken && (!is_known || known->second.newest.header.stamp - stamp >= kKept)) {
     if (!is_known || ++known->second.too_old_in_a_row < kTooOldForAJump) return kTooOld;
     SetBack();
     if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
-  }
-  if (known != moving_.end() && IsSetBack(known->second, transform.header.stamp)) {
+  } else if (is_known && IsSetBack(known->second, stamp)) {
     SetBack();
     if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
+  } else if (!is_taken) {  // the same again, as of a simulator that pauses
+    known->second.too_old_in_a_row = 0;
+    return nullptr;
   }
   Moving& moving = moving_.try_emplace(frame, Moving{{}, 0, 0, round_}).first->second;
   moving.too_old_in_a_row = 0;
@@ -104,8 +104,8 @@ const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool 
 }
 
 // Of a bag that is shorter than what tf2 keeps, and played in a loop, the newest transforms would
-// stay those of the last round. Once one frame has shown it, others need one transform. Two senders
-// of one frame, one of them late, take turns.
+// stay those of the last round: tf2 has the others already. Once one frame has shown it, others
+// need one transform. Two senders of one frame, one of them late, take turns.
 bool TfTree::IsSetBack(Moving& moving, const ros::Time& stamp) {
   constexpr int kBehindForAJump = 5;
   const ros::Duration kBehind(0.5);

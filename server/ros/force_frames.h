@@ -70,7 +70,7 @@ class TfTree {
   struct Moving {
     geometry_msgs::TransformStamped newest;
     int too_old_in_a_row = 0;  // refused since
-    int behind_in_a_row = 0;   // taken since, but much older
+    int behind_in_a_row = 0;   // come since, but much older
     int round = 0;             // round_ when it was last continued
   };
 

@@ -182,15 +182,24 @@ std::optional<Refusal> InteractiveMarkers::Take(const InteractiveMarkerInit& mes
     server->init.reset();
     server->update.reset();
     server->changed.clear();
+    server->moves.clear();
   }
   const bool is_first = !server->init;
   const bool has_update = server->update && message.seq_num <= *server->update;
   server->init = message.seq_num;
   if (has_update && !is_first) return std::nullopt;  // nothing in it is new
   const std::set<std::string> changed = std::exchange(server->changed, {});
+  const auto moves = std::exchange(server->moves, {});
   if (!has_update) EraseAll(*server, out);
-  return PutAll(*server, message.markers, has_update ? changed : std::set<std::string>(), style,
-                out);
+  auto refusal =
+      PutAll(*server, message.markers, has_update ? changed : std::set<std::string>(), style, out);
+  if (!has_update) return refusal;
+  for (const auto& [name, pose] : moves) {
+    const auto marker = server->markers.find(name);
+    if (marker != server->markers.end() && changed.count(name) == 0)
+      Move(marker->second, pose, out);
+  }
+  return refusal;
 }
 
 std::optional<Refusal> InteractiveMarkers::Take(const InteractiveMarkerUpdate& message,
@@ -216,7 +225,11 @@ std::optional<Refusal> InteractiveMarkers::Take(const InteractiveMarkerUpdate& m
   auto refusal = PutAll(*server, message.markers, {}, style, out);
   for (const auto& [name, pose] : NewestByName(message.poses)) {
     const auto marker = server->markers.find(name);
-    if (marker != server->markers.end()) Move(marker->second, *pose, out);
+    if (marker != server->markers.end()) {
+      Move(marker->second, *pose, out);
+    } else if (!server->init && server->moves.size() < kMostInteractiveMarkers) {
+      server->moves[name] = *pose;
+    }
   }
   return refusal;
 }

@@ -30,8 +30,7 @@ class InteractiveMarkers {
   [[nodiscard]] std::optional<Refusal> Take(
       const visualization_msgs::InteractiveMarkerInit& message, const ShownStyle& style,
       ShownMarkers& out);
-  /// What has changed: new ones, other poses, and those that are gone. Poses of markers that are
-  /// not known have no effect, as in RViz.
+  /// What has changed: new ones, other poses, and those that are gone.
   [[nodiscard]] std::optional<Refusal> Take(
       const visualization_msgs::InteractiveMarkerUpdate& message, const ShownStyle& style,
       ShownMarkers& out);
@@ -50,6 +49,8 @@ class InteractiveMarkers {
     std::optional<std::uint64_t> init, update;  // numbers of the newest messages
     std::map<std::string, Shown> markers;       // by name
     std::set<std::string> changed;              // names in updates, until the whole is known
+    // Of updates about markers that only the whole has, until it is known; by name.
+    std::map<std::string, visualization_msgs::InteractiveMarkerPose> moves;
   };
 
   Server* Find(const std::string& id);  // null: there are too many

@@ -223,7 +223,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   switch (data[0] % 34) {
     case 0: {
       visualization_msgs::Marker marker;
-      if (Read(bytes, marker)) CheckMarkers({marker});
+      if (Read(bytes, marker)) CheckMarkers(std::vector<visualization_msgs::Marker>{marker});
       break;
     }
     case 1: {

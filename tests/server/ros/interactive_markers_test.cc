@@ -214,6 +214,16 @@ TEST_F(InteractiveMarkersTest, AnOlderWholeAddsWhatNoUpdateSpokeOf) {
   EXPECT_THAT(newest_, IsEmpty()) << "the whole has it";
 }
 
+// Its topics are two connections: the move may come before the whole from before the move.
+TEST_F(InteractiveMarkersTest, AreMovedByAnUpdateThatCameBeforeTheWhole) {
+  EXPECT_EQ(Take(Moved(2, "a", 3)), "");
+  EXPECT_THAT(xs(), IsEmpty());
+  EXPECT_EQ(Take(AllOf(1, {BoxAt("a", 1)})), "");
+  EXPECT_THAT(xs(), ElementsAre(3.1));
+  EXPECT_EQ(Take(AllOf(2, {BoxAt("a", 3)})), "");
+  EXPECT_THAT(xs(), ElementsAre(3.1));
+}
+
 TEST_F(InteractiveMarkersTest, OfAServerThatWasRestartedReplaceTheFormerOnes) {
   EXPECT_EQ(Take(AllOf(50, {BoxAt("a", 1)})), "");
   EXPECT_EQ(Take(Moved(51, "a", 2)), "");
