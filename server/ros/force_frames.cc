@@ -85,11 +85,12 @@ const char* TfTree::Take(const geometry_msgs::TransformStamped& transform, bool 
   const bool is_known = known != moving_.end(),
              is_taken = buffer_.setTransform(transform, "/tf", false);
   const ros::Time& stamp = transform.header.stamp;
-  if (!is_taken && (!is_known || known->second.newest.header.stamp - stamp >= kKept)) {
-    if (!is_known || ++known->second.too_old_in_a_row < kTooOldForAJump) return kTooOld;
-    SetBack();
-    if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
-  } else if (is_known && IsSetBack(known->second, stamp)) {
+  const bool is_too_old =
+      !is_taken && (!is_known || known->second.newest.header.stamp - stamp >= kKept);
+  if (is_too_old && (!is_known || ++known->second.too_old_in_a_row < kTooOldForAJump)) {
+    return kTooOld;
+  }
+  if (is_too_old || (is_known && IsSetBack(known->second, stamp))) {
     SetBack();
     if (!buffer_.setTransform(transform, "/tf", false)) return kTooOld;
   } else if (!is_taken) {  // the same again, as of a simulator that pauses
@@ -121,8 +122,8 @@ bool TfTree::IsSetBack(Moving& moving, const ros::Time& stamp) {
   return true;
 }
 
-// tf2 can only forget all moving frames: those that are not too old get their newest transform
-// again, and lose the ten seconds before it.
+// tf2 can only forget all moving frames: those whose time goes on get their newest transform again,
+// and lose the ten seconds before it.
 void TfTree::SetBack() {
   buffer_.clear();  // static ones stay
   for (auto each = moving_.begin(); each != moving_.end();) {

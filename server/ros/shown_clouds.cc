@@ -214,7 +214,9 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
                          static_cast<double>(i) * static_cast<double>(message.angle_increment);
     const auto metres = static_cast<double>(range);
     points.points.push_back(PointAt(metres * std::cos(angle), metres * std::sin(angle), 0));
-    sweep.shares.push_back(static_cast<float>(i) / static_cast<float>(message.ranges.size() - 1));
+    if (sweep.secs != 0) {
+      sweep.shares.push_back(static_cast<float>(i) / static_cast<float>(message.ranges.size() - 1));
+    }
     if (has_intensities) values.push_back(static_cast<double>(message.intensities[i]));
     if (axis) values.push_back(At(points.points.back(), *axis));
   }

@@ -1,4 +1,4 @@
-/// What changes of people and limits are called in the log and in marks, whoever makes them. Any
+/// The names of changes of people and limits in the log and in marks, for page and bridge. Any
 /// thread.
 #pragma once
 
