@@ -14,6 +14,7 @@
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
 #include "server/ros/stamp.h"
+#include "urdf/kinematics.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -96,10 +97,10 @@ void Bend(SceneMarker& points, const urdf::Pose& local, const Sweep& sweep, cons
   const Eigen::Quaterniond back = points.pose.orientation.conjugate();
   for (std::size_t i = 0; i < points.points.size(); ++i) {
     const auto share = static_cast<double>(sweep.shares[i]);
-    const Eigen::Vector3d position = first.position + share * (last.position - first.position);
-    const Eigen::Quaterniond turn = first.orientation.slerp(share, last.orientation);
+    const urdf::Pose frame = urdf::Interpolate(first, last, share);
     const Eigen::Vector3d in_frame = local.position + local.orientation * points.points[i];
-    points.points[i] = back * (position + turn * in_frame - points.pose.position);
+    points.points[i] =
+        back * (frame.position + frame.orientation * in_frame - points.pose.position);
   }
 }
 
