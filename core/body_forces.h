@@ -77,6 +77,8 @@ struct StatedHandLoad {
   bool is_known = false;                   // false: no hand load was set
   std::array<double, 2> alone_kg{{0, 0}};  // held by one hand, by urdf::Side
   double both_kg = 0;
+  /// CoM of what that hand alone holds, in its link frame, m; absent: at the grip point.
+  std::array<std::optional<Eigen::Vector3d>, 2> com_in_hand{};
 };
 
 struct BodyForces {

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "core/finger_and_prop_segments.h"
+#include "core/hand_load.h"
+#include "core/person_change.h"
 #include "urdf/anatomical_angles.h"
 #include "urdf/landmarks.h"
 #include "urdf/segments.h"
@@ -113,6 +115,9 @@ struct Character {
   /// Of a person: props and fingers, indexed as FingerAndPropSegments; name "" where there is none.
   /// Of a group of objects: all of them, in order.
   std::vector<ScaledSegment> scaled_segments;
+  /// Of a person of another node, or of its recording: what that node was told. Not checked.
+  PersonChange told = {};
+  HandLoad told_hand_load = {};
 };
 
 }  // namespace kinescope

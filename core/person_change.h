@@ -1,4 +1,5 @@
-/// What an operator says about a person beside the stream. Values only; any thread.
+/// What an operator, or the node of the suit, says about a person beside the motion. Values only;
+/// any thread.
 #pragma once
 
 #include <optional>

@@ -9,7 +9,9 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -195,6 +197,12 @@ class InputFile::Content {
   bool raw_head_given_ = false;
   std::vector<char> chunk_ = std::vector<char>(kChunkBytes);
 };
+
+std::string WhereItBegins(const std::string& path) {
+  std::error_code unknown;
+  const auto folder = std::filesystem::current_path(unknown);
+  return std::filesystem::path(path).is_absolute() ? "" : ", in the folder " + folder.string();
+}
 
 InputFile::InputFile(std::FILE* file) : file_(file), notes_(std::make_shared<Notes>()) {}
 

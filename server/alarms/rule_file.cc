@@ -11,6 +11,7 @@
 
 #include "core/compression_limits.h"
 #include "core/system/errors.h"
+#include "core/system/input_file.h"
 #include "core/system/utf8.h"
 #include "core/system/web_address.h"
 #include "core/system/words.h"
@@ -99,9 +100,9 @@ class Reader {
       root = load();
     } catch (const YAML::BadFile&) {
       throw UsageError(
-          fmt::format("--alarms={}: cannot read this file; expected a file of rules "
+          fmt::format("--alarms={}: cannot read this file{}; expected a file of rules "
                       "(docs/alarms.md) or default",
-                      path_));
+                      path_, WhereItBegins(path_)));
     } catch (const YAML::Exception& problem) {
       throw UsageError(
           fmt::format("--alarms={}: line {}: {}", path_, problem.mark.line + 1, problem.msg));

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/system/errors.h"
+#include "core/system/input_file.h"
 #include "core/system/words.h"
 #include "server/options/yaml_file.h"
 
@@ -37,7 +38,7 @@ void YamlOptions::Load(const Read& read) {
   try {
     root_->node = read();
   } catch (const YAML::BadFile&) {
-    throw UsageError(path_ + ": cannot read this file");
+    throw UsageError(fmt::format("{}: cannot read this file{}", path_, WhereItBegins(path_)));
   } catch (const YAML::Exception& error) {
     throw UsageError(fmt::format("{}:{}: not valid YAML ({}); expected one 'name: value' per line",
                                  path_, error.mark.line + 1, error.msg));

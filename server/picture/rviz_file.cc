@@ -12,6 +12,7 @@
 #include "core/graph_view.h"
 #include "core/suit_colors.h"
 #include "core/system/errors.h"
+#include "core/system/input_file.h"
 #include "core/system/starts_with.h"
 #include "server/options/ros_names.h"
 #include "server/options/text.h"
@@ -483,7 +484,7 @@ RvizPicture Read(const std::string& path, int height_px, const Load& load) {
   try {
     return RvizReader(path, height_px).Read(load());
   } catch (const YAML::BadFile&) {
-    throw UsageError(path + ": cannot read this file");
+    throw UsageError(fmt::format("{}: cannot read this file{}", path, WhereItBegins(path)));
   } catch (const YAML::Exception& error) {
     throw UsageError(
         fmt::format("{}:{}: not valid YAML ({})", path, error.mark.line + 1, error.msg));

@@ -5,6 +5,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bitset>
 #include <cmath>
@@ -28,6 +29,7 @@
 #include "server/ros/master_registration.h"
 #include "server/ros/names.h"
 #include "server/ros/node_topics.h"
+#include "server/ros/person_messages.h"
 #include "server/ros/robot_inbox.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/ros_clock.h"
@@ -187,7 +189,10 @@ class Bridge : public RosBridge {
     }
     // Robots first: their links may be frames of markers.
     if (robots_in_) robots_in_->Deliver(now, is_stale_ ? 0 : shown_stamp_nanos_, sink);
-    if (markers_in_) markers_in_->Deliver(now, sink);
+    const bool is_simulated = IsSimulated();
+    if (markers_in_) {
+      markers_in_->Deliver({now, is_simulated ? ToNanos(ros::Time::now()) : now}, sink);
+    }
   }
 
   void Publish(const SceneState& state) override {
@@ -237,6 +242,7 @@ class Bridge : public RosBridge {
     last_live_number_ = state.number;
     shown_stamp_nanos_ = state.stamp_nanos;
     if (!state.people.empty()) scene_frame_->SetPerson();
+    TellOfPeople(state);
     for (std::size_t i = 0; i < state.people.size(); ++i) {
       const PersonState& person = state.people[i];
       const BodySample& came = as_it_came.people[i].sample;
@@ -248,6 +254,27 @@ class Bridge : public RosBridge {
       if (!StandsStill(person.sample, outlet)) PublishSample(state, person, outlet);
     }
     ReleaseThoseGone(state.stamp_nanos);
+  }
+
+  // Before their first pose, so that a recorder has it first.
+  void TellOfPeople(const SceneState& state) {
+    const auto node = registration_.Node();
+    if (!node || !node->people) return;
+    kinescope_ros::PersonArray& message = people_now_;
+    message.people.resize(state.people.size());
+    for (std::size_t i = 0; i < state.people.size(); ++i) {
+      const Outlet& outlet = OutletOf(state.people[i]);
+      const auto topics = registration_.TopicsOf(state.people[i].character);
+      if (!topics) return;
+      FillPerson(state.people[i], outlet.names, NamespaceOf(topics->joint_loads.getTopic()),
+                 message.people[i]);
+    }
+    if (std::equal(message.people.begin(), message.people.end(), people_told_.people.begin(),
+                   people_told_.people.end(), AreEqual)) {
+      return;
+    }
+    people_told_ = message;
+    node->people.publish(message);
   }
 
   // tf2 drops, with a warning, a transform with the stamp of the one before.
@@ -404,7 +431,7 @@ class Bridge : public RosBridge {
             Outlet& outlet) {
     const std::string& frame = config_.reference_frame;
     const Sensors heard = HeardSensors(person, outlet);
-    const bool is_incomplete = config_.completes_frames && IsIncomplete(outlet);
+    const bool is_incomplete = config_.people_are_of_graph && IsIncomplete(outlet);
     if (topics.tf && topics.tf.getNumSubscribers() > 0 && (config_.tf != "none" || is_incomplete)) {
       if (is_incomplete) {
         FillInnerTransforms(person, outlet.names, frame, outlet.transforms);
@@ -499,7 +526,9 @@ class Bridge : public RosBridge {
   std::atomic<std::uint64_t> missed_ = 0;
 
   // Used by the publishing thread only.
-  std::map<int, Outlet> outlets_;  // by character
+  std::map<int, Outlet> outlets_;           // by character
+  kinescope_ros::PersonArray people_now_;   // reused, keeps its memory
+  kinescope_ros::PersonArray people_told_;  // to others
   std::optional<StreamStatus>
       status_;  // of the samples of one person at a time; from the first diagnosis on
   bool is_stale_ = false;

@@ -73,9 +73,10 @@ struct BridgeConfig {
   bool finds_frame = false;
   std::string tf = "flat";  // "flat" as xsens_mvn_ros, "tree", "off" (the pelvis
                             // alone, for robot_state_publisher) or "none"
-  /// With "none": adds the frames of the links inside the joints where the node that publishes the
-  /// people does not: RViz reports an error for a robot without them.
-  bool completes_frames = false;
+  /// Another node publishes the people. With "none", the frames of the links inside the joints are
+  /// added where that node does not: RViz reports an error for a robot without them. What was told
+  /// about the people is that node's to say.
+  bool people_are_of_graph = false;
   std::string joint_states = "computed";  // or "streamed": type 20 with the mapping of
                                           // xsens_mvn_ros
 

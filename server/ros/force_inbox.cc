@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "server/ros/person_messages.h"
 #include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
@@ -107,19 +108,7 @@ std::optional<FoundFrame> ForceInbox::Place(const char* topic, const std_msgs::H
 template <class Message>
 std::string ForceInbox::TakeHandLoad(const char* topic, const Message& message) {
   HandLoad load;
-  load.is_known = true;
-  load.mass_kg = {message.right_kg, message.left_kg};
-  load.both_kg = message.both_kg;
-  std::string wrong;
-  for (const auto& [side, com] :
-       {std::pair(urdf::kRight, &message.right_com), std::pair(urdf::kLeft, &message.left_com)}) {
-    if (com->size() == 3) {
-      load.com_in_hand[side] = Eigen::Vector3d::Map(com->data());
-    } else if (!com->empty()) {
-      wrong =
-          fmt::format("centre of mass with {} numbers: expected x, y and z, or none", com->size());
-    }
-  }
+  std::string wrong = ReadHandLoad(message, load);
   if (wrong.empty() && settings_.check_hand_load) wrong = settings_.check_hand_load(load);
   if (!wrong.empty()) {
     Refuse(topic, {"bad load", wrong});

@@ -33,6 +33,7 @@
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
 #include "server/ros/init.h"
+#include "server/ros/person_messages.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/running.h"
 #include "server/ros/tcpros_limits.h"
@@ -282,6 +283,9 @@ void MasterRegistration::Start() {
   node_topics->log = Topic<rosgraph_msgs::Log>("/rosout");
   node_topics->marks = Topic<kinescope_ros::Mark>("marks");
   node_topics->state = Topic<std_msgs::String>("state", Latch::kYes);
+  if (!config_.people_are_of_graph) {
+    node_topics->people = Topic<kinescope_ros::PersonArray>(kPeopleTopic, Latch::kYes);
+  }
   if (config_.settings.get) {
     node_topics->settings =
         Topic<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", Latch::kYes);
@@ -359,7 +363,7 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->time_code = Topic<sensor_msgs::TimeReference>(prefix + "time_code");
   topics->utc = Topic<sensor_msgs::TimeReference>(prefix + "utc");
   topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
-  if (config_.tf != "none" || config_.completes_frames)
+  if (config_.tf != "none" || config_.people_are_of_graph)
     topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
 }
@@ -379,7 +383,7 @@ void MasterRegistration::Subscribe() {
   }
   if (!marks_) marks_ = SubscribeMarks();
   bool wants_transforms =
-      config_.completes_frames || wiring_.markers != nullptr || wiring_.robots != nullptr;
+      config_.people_are_of_graph || wiring_.markers != nullptr || wiring_.robots != nullptr;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     wants_transforms = wants_transforms || wants_transforms_;

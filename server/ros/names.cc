@@ -93,6 +93,8 @@ std::string AsSnakeCase(const std::string& text) {
   return name;
 }
 
+std::string NamespaceOf(const std::string& topic) { return topic.substr(0, topic.rfind('/') + 1); }
+
 std::string WithSlash(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }

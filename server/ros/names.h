@@ -47,6 +47,8 @@ std::string AsSnakeCase(const std::string& text);
 
 /// The name of a topic as graphs have it, which bags do not always: "tf" becomes "/tf".
 std::string WithSlash(const std::string& topic);
+/// "/kinescope/anna/" of "/kinescope/anna/joint_loads".
+std::string NamespaceOf(const std::string& topic);
 /// As people read it: "plan" for "/plan".
 std::string WithoutSlashes(const std::string& topic);
 

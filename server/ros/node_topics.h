@@ -1,5 +1,6 @@
-/// The topics of the node that belong to no person: `/diagnostics`, `/rosout`, `~state`, `~marks`,
-/// `~mark`, and `~parameter_descriptions` and `~parameter_updates` of dynamic_reconfigure.
+/// The topics of the node that belong to no person: `/diagnostics`, `/rosout`, `/kinescope/people`,
+/// `~state`, `~marks`, `~mark`, and `~parameter_descriptions` and `~parameter_updates` of
+/// dynamic_reconfigure.
 #pragma once
 
 #include <ros/publisher.h>
@@ -13,7 +14,7 @@ namespace kinescope::ros_bridge {
 
 /// Any thread may publish.
 struct NodeTopics {
-  ros::Publisher diagnostics, marks, state, log;
+  ros::Publisher diagnostics, marks, state, log, people;
   ros::Publisher settings, settings_now;  // descriptions, and values
 };
 

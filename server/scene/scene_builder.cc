@@ -78,10 +78,23 @@ void SceneBuilder::SetHandLoad(int character, const HandLoad& load) {
 
 void SceneBuilder::ChangePerson(int character, const PersonChange& change) {
   KINESCOPE_CHECK(FindDefect(change).empty());
-  PersonChange& stated = inputs_[character].stated;
-  stated.Add(change);
+  inputs_[character].stated.Add(change);
   const auto person = people_.find(character);
-  if (person != people_.end()) person->second.SetStated(stated);
+  if (person != people_.end()) person->second.SetStated(StatedOf(character));
+}
+
+// An operator's words count more than the options, and these more than those of another node.
+PersonChange SceneBuilder::StatedOf(int id) const {
+  PersonChange stated;
+  const auto character = characters_.find(id);
+  if (character != characters_.end()) {
+    const PersonChange& told = character->second.told;
+    if (options_.body.mass_is_assumed) stated.mass_kg = told.mass_kg;
+    if (options_.body.sex_is_assumed) stated.sex = told.sex;
+  }
+  const auto inputs = inputs_.find(id);
+  if (inputs != inputs_.end()) stated.Add(inputs->second.stated);
+  return stated;
 }
 
 // A sensor that has stopped leaves a hand's load unknown until the load is set.
@@ -95,13 +108,35 @@ void SceneBuilder::ForgetStoppedHands(PersonInputs& inputs) {
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
+// Another node may be wrong, or not be one of ours.
+void SceneBuilder::ForgetImpossible(Character& character) {
+  const auto warn = [&](const std::string& defect) {
+    constexpr std::size_t kMostSaid = 16;
+    if (impossible_once_.size() >= kMostSaid || !impossible_once_.insert(defect).second) return;
+    spdlog::warn("what the node of the suit was told about '{}' is not used: {}", character.name,
+                 defect);
+  };
+  if (const std::string defect = FindDefect(character.told); !defect.empty()) {
+    warn(defect);
+    character.told = {};
+  }
+  if (const std::string defect = loads::FindDefect(character.told_hand_load); !defect.empty()) {
+    warn(defect);
+    character.told_hand_load = {};
+  }
+}
+
 // A description alone makes no person: a sender without poses costs nothing.
 void SceneBuilder::OnCharacter(const Character& character) {
-  characters_[character.id] = character;
+  Character& known = characters_[character.id];
+  known = character;
+  ForgetImpossible(known);
   const bool is_of_objects = !character.skeleton && !character.scaled_segments.empty();
   if (is_of_objects) return;
   const auto person = people_.find(character.id);
-  if (person != people_.end()) person->second.SetCharacter(character);
+  if (person == people_.end()) return;
+  person->second.SetCharacter(known);
+  person->second.SetStated(StatedOf(character.id));
 }
 
 PersonTracker& SceneBuilder::TrackerOf(int id) {
@@ -112,8 +147,7 @@ PersonTracker& SceneBuilder::TrackerOf(int id) {
   const auto past = past_.try_emplace(id, PersonTracker::Past{past_.size(), 0, {}}).first;
   PersonTracker& person =
       people_.try_emplace(id, models_, maker_.get(), character, past->second).first->second;
-  const auto inputs = inputs_.find(id);
-  if (inputs != inputs_.end()) person.SetStated(inputs->second.stated);
+  person.SetStated(StatedOf(id));
   return person;
 }
 
@@ -180,8 +214,9 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   static const PersonInputs kNoInputs;
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
+  if (!settings.hands.is_known) settings.hands = characters_[sample.character].told_hand_load;
   if (given.hand_load) settings.hands = *given.hand_load;
-  if (given.stated.sex) settings.strength.sex = *given.stated.sex;
+  settings.strength.sex = StatedOf(sample.character).sex.value_or(settings.strength.sex);
   const bool has_forces = recorded_forces_ && recorded_forces_->AreOf(sample);
   TrackerOf(sample.character)
       .Update(sample, settings, given.measured,

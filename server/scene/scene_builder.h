@@ -132,6 +132,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   };
 
   PersonTracker& TrackerOf(int id);
+  PersonChange StatedOf(int id) const;
+  void ForgetImpossible(Character& character);
   bool IsPlausible(const BodySample& sample);
   void TakeTime(const BodySample& sample);
   bool IsWithin(std::int64_t nanos, std::int64_t moment) const;
@@ -171,10 +173,11 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::map<int, Character> characters_;      // as the source described them; people and groups of
                                              // tracked objects
   std::map<int, PersonInputs> inputs_;
-  std::map<int, LeftOut> left_out_;      // now
-  std::set<int> left_out_once_;          // said once
-  std::map<int, TrackedGroup> objects_;  // of the newest sample of each group
-  std::int64_t waited_nanos_ = 0;        // see SetWaited()
+  std::map<int, LeftOut> left_out_;        // now
+  std::set<int> left_out_once_;            // said once
+  std::set<std::string> impossible_once_;  // of what another node was told; the same
+  std::map<int, TrackedGroup> objects_;    // of the newest sample of each group
+  std::int64_t waited_nanos_ = 0;          // see SetWaited()
   HeldHeading view_heading_;
   HeldExtent extent_;
   std::int64_t extent_nanos_ = 0;  // stamp of the state when it was looked at last

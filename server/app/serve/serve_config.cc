@@ -227,7 +227,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
     // The frames of these people are on /tf already. With a second publisher they would jump
     // between two poses, and Kinescope would receive its own.
     config.ros->tf = "none";
-    config.ros->completes_frames = true;
+    config.ros->people_are_of_graph = true;
     // Links have the names of these frames, so that RViz shows the body.
     config.scene.takes_names = config.scene.model_name == SceneOptions().model_name &&
                                !EndsWith(config.source_url, "link_states");

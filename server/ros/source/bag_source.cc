@@ -18,6 +18,7 @@
 #include "core/near_whole.h"
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "core/system/words.h"
 #include "server/ros/frame_ways.h"
 #include "server/ros/names.h"
@@ -28,6 +29,7 @@
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/motion_joiner.h"
 #include "server/ros/source/recorded_loads.h"
+#include "server/ros/source/told_people.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/stamp.h"
 
@@ -39,6 +41,8 @@ constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for fra
 
 constexpr char kUnreadableTransforms[] =
     "transforms that are truncated or have a wrong length field";
+constexpr char kUnreadablePeople[] =
+    "kinescope/PersonArray that is truncated or has a wrong length field";
 constexpr char kUnreadableLinkStates[] =
     "message of link states that is truncated or has a wrong length field";
 constexpr char kOtherType[] = "message on the topic of transforms that is not a TFMessage";
@@ -179,8 +183,14 @@ class BagSource : public Source {
   }
   bool IsUsed(const BagConnection& connection) const {
     return HasTransforms(connection) || IsLinkStates(connection) ||
-           RecordedLoads::IsOne(connection) || surroundings_.IsUsed(connection);
+           RecordedLoads::IsOne(connection) || IsOfPeople(connection) ||
+           surroundings_.IsUsed(connection);
   }
+
+  static bool IsOfPeople(const BagConnection& connection) {
+    return Is<kinescope_ros::PersonArray>(connection.md5sum);
+  }
+  ToldPeople::Marks MarksOf(int character) const;
 
   void ReadNames();
   /// The frame of the first sample, in which markers stand from the beginning; "" if none comes
@@ -201,6 +211,7 @@ class BagSource : public Source {
   const char* Decode(const BagMessage& message);
   void Take(const BagMessage& message);
   void TakeLinkStates(const BagMessage& message);
+  void TakePeople(const BagMessage& message);
   void PassMoment(std::int64_t now_nanos, std::int64_t stamp_nanos);
   void PassMomentNow(std::int64_t now_nanos, std::int64_t stamp_nanos);
   void PassMomentOrLater(std::int64_t now_nanos);
@@ -229,6 +240,7 @@ class BagSource : public Source {
   TransformPeople people_{0};
   MotionJoiner joiner_;
   RecordedLoads recorded_loads_;
+  ToldPeople told_people_{[this](int character) { return MarksOf(character); }};
   CommonFrame common_frame_;
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
@@ -248,10 +260,11 @@ SourceError ErrorIn(const std::string& name, const std::string& what) {
 
 void BagSource::ReadNames() {
   BagMessages ahead(OpenBagFile(name_), [this](const BagConnection& connection) {
-    return HasTransforms(connection) || IsLinkStates(connection);
+    return HasTransforms(connection) || IsLinkStates(connection) || IsOfPeople(connection);
   });
   std::map<std::string, Appearances> appearances, of_link_states;
   std::int64_t end = 0;
+  std::set<const BagConnection*> told_first;
   bool has_ended = true;
   BagMessage message;
   while (ahead.Next(message)) {
@@ -261,6 +274,11 @@ void BagSource::ReadNames() {
     if (now > end && !people_.people().empty()) {
       has_ended = false;
       break;
+    }
+    if (IsOfPeople(*message.connection)) {
+      // A recorder may have the first pose before what is latched.
+      if (told_first.insert(message.connection).second) TakePeople(message);
+      continue;
     }
     if (IsLinkStates(*message.connection)) {
       of_link_states[message.connection->topic].Add(now);
@@ -326,12 +344,13 @@ std::set<std::string> BagSource::OtherTransforms(const BagMessages& all) const {
 
 // The people come from link states, which have no frames of others.
 void BagSource::WarnOfMissingTransforms(const BagMessages& all) const {
-  if (!has_chosen_tf_ || HasMoving(all)) return;
   const std::set<std::string> others = OtherTransforms(all);
-  WarnOfBag(name_,
-            fmt::format(
-                "has no transforms on {} (--tf_topic){}", tf_topic_,
-                others.empty() ? "" : fmt::format("; it has some on {}", fmt::join(others, ", "))));
+  if (HasMoving(all) || (!has_chosen_tf_ && others.empty())) return;
+  WarnOfBag(
+      name_,
+      fmt::format(
+          "has no transforms on {} (--tf_topic){}: people are those of its link states", tf_topic_,
+          others.empty() ? "" : fmt::format("; it has some on {}", fmt::join(others, ", "))));
 }
 
 std::string BagSource::WhyNobody(const BagMessages& all) const {
@@ -457,7 +476,7 @@ Source::State BagSource::End() {
   has_ended_ = true;
   people_.End(counters_);
   WarnOfUnused();
-  for (const std::string& text : recorded_loads_.Texts()) {
+  for (const std::string& text : recorded_loads_.Texts(told_people_)) {
     spdlog::info("bag '{}': {}; those of its motion are computed with --mass and --hand_load",
                  name_, text);
   }
@@ -490,6 +509,7 @@ void BagSource::WarnOfUnused() const {
 
 void BagSource::Take(const BagMessage& message) {
   if (RecordedLoads::IsOne(*message.connection)) return recorded_loads_.Take(message);
+  if (IsOfPeople(*message.connection)) return TakePeople(message);
   ++counters_.datagrams;
   counters_.bytes += message.size;
   if (IsLinkStates(*message.connection)) return TakeLinkStates(message);
@@ -506,7 +526,8 @@ void BagSource::Take(const BagMessage& message) {
   } else {
     // Without people, with the moments.
     if (has_person_) surroundings_.Update(message.recorded_nanos, world_, name_, joiner_);
-    people_.Take(message_, {message.recorded_nanos, 0}, counters_, joiner_);
+    told_people_.SetSink(&joiner_);
+    people_.Take(message_, {message.recorded_nanos, 0}, counters_, told_people_);
   }
 }
 
@@ -568,7 +589,24 @@ void BagSource::TakeLinkStates(const BagMessage& message) {
     return;
   }
   surroundings_.Update(message.recorded_nanos, world_, name_, watch_);
-  person->second.Take(link_states_, {message.recorded_nanos, 0}, origin_, counters_, watch_);
+  told_people_.SetSink(&watch_);
+  person->second.Take(link_states_, {message.recorded_nanos, 0}, origin_, counters_, told_people_);
+}
+
+ToldPeople::Marks BagSource::MarksOf(int character) const {
+  const std::size_t index = urdf::At(character);
+  if (!links_.empty()) {
+    return {"", index < links_.size()
+                    ? NamespaceOf(WithSlash(std::next(links_.begin(), character)->first))
+                    : ""};
+  }
+  const auto& people = people_.people();
+  return {index < people.size() ? people[index].frames[urdf::kPelvis] : "", ""};
+}
+
+void BagSource::TakePeople(const BagMessage& message) {
+  const bool is_whole = message.bytes.size() == message.size;
+  if (!is_whole || !told_people_.Take(message.bytes)) ++counters_.rejected[kUnreadablePeople];
 }
 
 SourceCounters BagSource::counters() const {
@@ -576,6 +614,8 @@ SourceCounters BagSource::counters() const {
   for (const auto& [connection, messages] : messages_.others()) {
     std::string what = fmt::format("topic {} ({})", connection->topic, connection->type);
     if (BagSurroundings::CanBeShown(*connection)) what += "; --marker_topics shows it";
+    if (HasTransformType(*connection) && !EndsWith(connection->topic, "_static"))
+      what += "; --tf_topic takes people from it";
     counters.ignored[what] += messages;
     counters.datagrams += messages;
   }

@@ -8,7 +8,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,11 +22,13 @@
 #include "core/system/wall_offset.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
+#include "server/ros/person_messages.h"
 #include "server/ros/ros_clock.h"
 #include "server/ros/source/common_frame.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/live_topics.h"
 #include "server/ros/source/publisher_clocks.h"
+#include "server/ros/source/told_people.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/stamp.h"
 
@@ -35,6 +39,7 @@ constexpr std::string_view kScheme = "ros:";
 constexpr char kMasterAnswers[] = "ros_master_answers", kPublishers[] = "publishers";  // counters
 constexpr std::int64_t kSettleNanos = 250'000'000;
 constexpr std::int64_t kToldNanos = 2 * kNanosPerSecond;  // nodes that swapped do so for as long
+constexpr char kStatic[] = "_static";
 constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
 constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
 
@@ -63,8 +68,10 @@ void RefuseNameOfAnother(const std::string& url) {
 }
 
 std::vector<std::string> TopicsBeside(const std::string& topic) {
-  if (!EndsWith(topic, "tf")) return {topic};
-  return {topic, topic + "_static"};
+  std::vector<std::string> names = {topic};
+  if (EndsWith(topic, "tf")) names.push_back(topic + kStatic);
+  names.push_back(ros::names::resolve(kPeopleTopic));
+  return names;
 }
 
 // Passes samples on with stamps of the wall clock, which never go back.
@@ -134,7 +141,7 @@ class GraphSource : public Source {
     SourceCounters counters = counters_;
     const LiveTopics::Status status = topics_.status();
     counters.transport = {{kMasterAnswers, status.master_answers ? 1 : 0},
-                          {kPublishers, status.publishers}};
+                          {kPublishers, PublishersOfPoses(status)}};
     const auto add = [&](const char* name, std::uint64_t count) {
       if (count > 0) counters.transport[name] = count;
     };
@@ -205,21 +212,26 @@ class GraphSource : public Source {
       return;
     }
     const std::string sum = Said(event, "md5sum");
+    if (Is<kinescope_ros::PersonArray>(sum)) {
+      if (!told_people_.Take(raw.bytes)) Reject(index, kUnreadableMessage);
+      return;
+    }
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
       if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
-      if (index > 0) {
+      if (EndsWith(names_[index], kStatic)) {
         common_frame_.Take(transforms_, true);
         return people_.TakeStatic(transforms_, counters_);
       }
       const Arrival now = Now();
-      frames_nanos_ = now.monotonic_nanos;
+      if (!transforms_.transforms.empty()) frames_nanos_ = now.monotonic_nanos;
       const std::int64_t stamp = NewestStamp();
       const std::int64_t shift = ShiftOf(event, stamp, now);
       for (auto& transform : transforms_.transforms) Shift(transform.header.stamp, shift);
       common_frame_.Take(transforms_, false);
       return Take([&](SampleSink& sink) {
         SamplesInOneFrame in_frame(common_frame_, people_, sink);
-        const bool has_person = people_.Take(transforms_, now, counters_, in_frame);
+        told_people_.SetSink(&in_frame);
+        const bool has_person = people_.Take(transforms_, now, counters_, told_people_);
         if (!has_person) return;
         OnPerson(event, stamp, now);
         NoteSender(event.getPublisherName(), now.monotonic_nanos);
@@ -233,7 +245,8 @@ class GraphSource : public Source {
       Shift(link_state_array_.header.stamp, shift);
       for (auto& state : link_state_array_.states) Shift(state.header.stamp, shift);
       return Take([&](SampleSink& sink) {
-        link_states_.Take(link_state_array_, now, origin_, counters_, sink);
+        told_people_.SetSink(&sink);
+        link_states_.Take(link_state_array_, now, origin_, counters_, told_people_);
         OnPerson(event, stamp, now);
       });
     }
@@ -305,6 +318,19 @@ class GraphSource : public Source {
     take(sink);
   }
 
+  // Who is told of people alone does not see them.
+  static std::size_t PublishersOfPoses(const LiveTopics::Status& status) {
+    return std::accumulate(status.publishers.begin(), std::prev(status.publishers.end()),
+                           std::size_t{0});
+  }
+
+  ToldPeople::Marks MarksOf(int character) const {
+    const auto& people = people_.people();
+    const std::size_t index = urdf::At(character);
+    if (index < people.size()) return {people[index].frames[urdf::kPelvis], ""};
+    return {"", NamespaceOf(names_.front())};
+  }
+
   void Reject(std::size_t index, const std::string& what) {
     ++counters_.rejected["message on " + names_[index] + " that " + what];
   }
@@ -322,6 +348,7 @@ class GraphSource : public Source {
   TransformPeople people_;
   CommonFrame common_frame_;
   LinkStatesPerson link_states_;
+  ToldPeople told_people_{[this](int character) { return MarksOf(character); }};
   SampleOrigin origin_;                                  // of `link_states_`
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
   xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory

@@ -46,6 +46,7 @@ LiveTopics::LiveTopics(std::vector<std::string> topics, std::string description,
     : topics_(std::move(topics)),
       description_(std::move(description)),
       on_message_(std::move(on_message)) {
+  status_.publishers.resize(topics_.size());
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
   LimitXmlRpcCalls(kMasterPatience);
@@ -113,11 +114,12 @@ void LiveTopics::Ask() {
   // Registering again has no effect on a registered node. A master that has forgotten only the
   // subscription cannot be distinguished from one that knows it.
   for (const std::string& topic : topics_) Register(topic);
-  std::size_t publishers = 0;
-  for (const ros::Subscriber& subscriber : subscribers_)
-    publishers += subscriber.getNumPublishers();
+  std::vector<std::size_t> publishers;
+  for (const ros::Subscriber& subscriber : subscribers_) {
+    publishers.push_back(subscriber.getNumPublishers());
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
-  status_.publishers = publishers;
+  status_.publishers = std::move(publishers);
 }
 
 // roscpp makes no subscription if the master does not accept it.

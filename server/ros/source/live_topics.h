@@ -32,10 +32,10 @@ class LiveTopics {
   using OnMessage = std::function<void(std::size_t topic, const Event& event)>;
 
   struct Status {
-    bool master_answers = false;      // at the last check; checked once a second
-    std::size_t publishers = 0;       // connected, over all topics
-    bool shutdown_requested = false;  // `rosnode kill`, another node took this node's name, or
-                                      // roscpp failed: no more messages
+    bool master_answers = false;          // at the last check; checked once a second
+    std::vector<std::size_t> publishers;  // connected, by topic
+    bool shutdown_requested = false;      // `rosnode kill`, another node took this node's name, or
+                                          // roscpp failed: no more messages
   };
 
   /// Subscribes to `topics`, which are resolved names; `on_message` gets the index of the topic.

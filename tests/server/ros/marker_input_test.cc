@@ -270,6 +270,48 @@ TEST(MarkerStore, RemovesMarkersAfterTheirLifetimeUnlessTheyAreSentAgain) {
   EXPECT_TRUE(store.markers().empty());
 }
 
+// A bag that is played slowly, or a simulator that stands still.
+TEST(MarkerStore, CountsLifetimesByTheClockOfTheGraph) {
+  MarkerStore store;
+  const Cart cart;
+  const auto at = [](double secs, double of_graph) {
+    return Now(static_cast<std::int64_t>(secs * kNanosPerSecond),
+               static_cast<std::int64_t>(of_graph * kNanosPerSecond));
+  };
+  Marker brief = Cube(1);
+  brief.lifetime = ros::Duration(2);
+  EXPECT_FALSE(store.Apply(0, brief, at(50, 100)));
+  ASSERT_TRUE(store.Update(at(50, 100), cart.Find()));
+  EXPECT_FALSE(store.Update(at(90, 101.9), cart.Find()));
+  ASSERT_TRUE(store.Update(at(90.1, 102), cart.Find()));
+  EXPECT_TRUE(store.markers().empty());
+}
+
+TEST(MarkerStore, ForgetsTheLastRoundOfARecordingThatBeginsAgain) {
+  MarkerStore store;
+  const Cart cart;
+  ShownTopic axes;
+  axes.is_frame = true;
+  axes.name = "cart";
+  store.AddOfFrame(7, axes);
+  const auto cube_at = [&](int id, double stamp, double secs, double of_graph) {
+    Marker cube = Cube(id);
+    cube.header.stamp = ros::Time(stamp);
+    EXPECT_FALSE(store.Apply(0, cube,
+                             {static_cast<std::int64_t>(secs * kNanosPerSecond),
+                              static_cast<std::int64_t>(of_graph * kNanosPerSecond)}));
+  };
+  cube_at(1, 10, 50, 10);
+  cube_at(2, 19.99, 59.95, 19.99);  // the last one of the round
+  cube_at(3, 10.01, 59.99, 20);     // the next round, of which the clock is heard a little later
+  ASSERT_TRUE(store.Update(60 * kNanosPerSecond, cart.Find()));
+  EXPECT_EQ(store.markers().size(), 4U);
+  store.StartAgain({60 * kNanosPerSecond, 10 * kNanosPerSecond});
+  ASSERT_TRUE(store.Update({60 * kNanosPerSecond, 10 * kNanosPerSecond}, cart.Find()));
+  ASSERT_EQ(store.markers().size(), 2U) << "the third, and the axes";
+  EXPECT_EQ(store.markers().front()->id, 3);
+}
+
 TEST(MarkerStore, MovesOnlyLockedMarkersWithTheirFrame) {
   MarkerStore store;
   Cart cart;

@@ -51,7 +51,13 @@ TEST(Markers, ShowEveryLoadAsThePictureDoes) {
 }
 
 TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
-  const PersonState person = MarkedPerson();
+  PersonState person = MarkedPerson();
+  person.forces.hands[urdf::kLeft].mass_kg = 5;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    HandForce& hand = person.forces.hands[side];
+    const urdf::Pose& link = person.links[At(urdf::HandSegmentOf(side))];
+    hand.point = hand.grip = link.position + link.orientation * Eigen::Vector3d(0, 0, -0.1);
+  }
   const PersonNames names("skeleton");
   const auto free = Of(person, MarkerFrames::kReference);
   const auto locked = Of(person, MarkerFrames::kLinks);
@@ -59,7 +65,12 @@ TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
   for (std::size_t i = 0; i < free.markers.size(); ++i) {
     const Marker& marker = locked.markers[i];
     const auto& p = marker.pose.position;
+    const auto turn_of = [](const Marker& of) {
+      const auto& q = of.pose.orientation;
+      return Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+    };
     Eigen::Vector3d position(p.x, p.y, p.z);
+    Eigen::Quaterniond turn = turn_of(marker);
     EXPECT_EQ(marker.frame_locked, marker.ns != "cop");
     EXPECT_FALSE(free.markers[i].frame_locked);
     if (marker.frame_locked) {
@@ -67,11 +78,15 @@ TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
       ASSERT_NE(link, names.links.end()) << marker.header.frame_id;
       const urdf::Pose& pose = person.links[static_cast<std::size_t>(link - names.links.begin())];
       position = pose.position + pose.orientation * position;
+      turn = pose.orientation * turn;
+      EXPECT_EQ(marker.ns == "hand_loads", *link == "skeleton_left_hand") << marker.ns;
     }
+    EXPECT_LT(turn.angularDistance(turn_of(free.markers[i])), 1e-7);
     const auto& expected = free.markers[i].pose.position;
     EXPECT_TRUE(position.isApprox(Eigen::Vector3d(expected.x, expected.y, expected.z), 1e-12));
   }
   EXPECT_EQ(locked.markers[0].header.frame_id, "skeleton_l5") << "the child of jL5S1";
+  EXPECT_EQ(locked.markers.back().ns, "hand_loads");
 }
 
 TEST(Markers, HaveALifetimeSoThatOldOnesDisappear) {

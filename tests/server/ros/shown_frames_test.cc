@@ -29,9 +29,11 @@ class ShownFramesTest : public ::testing::Test {
     places_[name] = {at, Eigen::Quaterniond::Identity()};
   }
 
-  bool UpdateAt(double secs) {
+  bool UpdateAt(double secs) { return UpdateAt(secs, secs); }
+  bool UpdateAt(double secs, double of_graph) {
     return frames_->Update(
-        static_cast<std::int64_t>(secs * kNanosPerSecond),
+        {static_cast<std::int64_t>(secs * kNanosPerSecond),
+         static_cast<std::int64_t>(of_graph * kNanosPerSecond)},
         [&](const ShownFrames::TakeFrame& take) {
           for (const auto& [name, frame] : tree_) take(frame);
         },
@@ -143,6 +145,20 @@ TEST_F(ShownFramesTest, ChangeOnlyWhenAFrameDoesAndNoMoreOftenThanTold) {
   EXPECT_TRUE(UpdateAt(2.03));
   Set("cart", "", {4, 0, 0});
   EXPECT_TRUE(UpdateAt(1)) << "a recording that is played again";
+}
+
+// While a bag is paused, or is played slowly.
+TEST_F(ShownFramesTest, AgeByTheClockOfTheGraph) {
+  ShownStyle style;
+  style.frames.timeout_secs = 3;
+  Use(style);
+  Set("cart", "", {2, 0, 0}, 100);
+  EXPECT_TRUE(UpdateAt(10, 500));
+  EXPECT_FALSE(UpdateAt(20, 500));
+  Set("cart", "", {3, 0, 0}, 100);
+  EXPECT_TRUE(UpdateAt(21, 500)) << "but not how often they are looked at";
+  EXPECT_TRUE(UpdateAt(22, 503));
+  EXPECT_TRUE(frames_->markers().empty());
 }
 
 TEST_F(ShownFramesTest, TurnGreyThenPaleAndAreGoneIfTheyAreNotHeardOf) {

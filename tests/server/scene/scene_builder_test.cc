@@ -24,6 +24,7 @@ namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class Built {
@@ -72,6 +73,76 @@ TEST(SceneBuilder, StandsRobotsOnTheFloorAndCountsTheChangesBesideThePeople) {
   built.builder.SetMarkers({std::make_shared<const SceneMarker>()});
   built.builder.OnSample(SampleOf("lift", 2));
   EXPECT_EQ(built.last().surroundings, before + 1);
+}
+
+TEST(SceneBuilder, KnowsOfPeopleWhatTheNodeOfTheirSuitWasToldUnlessOptionsOrOperatorsSayMore) {
+  const auto person = [](const Built& built) -> const PersonState& {
+    return built.last().people[0];
+  };
+  const auto show = [](Built& built, double secs) {
+    built.builder.OnSample(SampleOf("lift", secs));
+  };
+  Character character;
+  character.told.mass_kg = 90;
+  character.told.sex = urdf::Sex::kFemale;
+  character.told_hand_load.is_known = true;
+  character.told_hand_load.both_kg = 8;
+  Built built;
+  built.builder.OnCharacter(character);
+  show(built, 0);
+  EXPECT_EQ(person(built).model->description.mass_kg, 90);
+  EXPECT_FALSE(person(built).model->description.mass_is_assumed);
+  EXPECT_EQ(person(built).model->description.sex, urdf::Sex::kFemale);
+  EXPECT_EQ(person(built).forces.stated_hand_load.both_kg, 8);
+  character.told.mass_kg = 91;
+  character.told_hand_load.both_kg = 4;
+  built.builder.OnCharacter(character);
+  show(built, 0.1);
+  EXPECT_EQ(person(built).model->description.mass_kg, 91);
+  EXPECT_EQ(person(built).forces.stated_hand_load.both_kg, 4);
+  PersonChange operators;
+  operators.mass_kg = 60;
+  built.builder.ChangePerson(0, operators);
+  HandLoad none;
+  none.is_known = true;
+  built.builder.SetHandLoad(0, none);
+  built.builder.OnCharacter(character);
+  show(built, 0.2);
+  EXPECT_EQ(person(built).model->description.mass_kg, 60);
+  EXPECT_EQ(person(built).forces.stated_hand_load.both_kg, 0);
+
+  SceneOptions options;
+  options.body.mass_kg = 70;
+  options.body.mass_is_assumed = false;
+  options.loads.hands.is_known = true;
+  options.loads.hands.mass_kg[urdf::kLeft] = 2;
+  Built with_options(options);
+  with_options.builder.OnCharacter(character);
+  show(with_options, 0);
+  EXPECT_EQ(person(with_options).model->description.mass_kg, 70);
+  EXPECT_EQ(person(with_options).model->description.sex, urdf::Sex::kFemale);
+  EXPECT_EQ(person(with_options).forces.stated_hand_load.alone_kg[urdf::kLeft], 2);
+  EXPECT_EQ(person(with_options).forces.stated_hand_load.both_kg, 0);
+}
+
+TEST(SceneBuilder, DoesNotUseWhatCannotBeTrueOfAPerson) {
+  Character character;
+  character.name = "anna";
+  character.told.mass_kg = 900;
+  character.told_hand_load.is_known = true;
+  character.told_hand_load.mass_kg[urdf::kLeft] = -1;
+  const kinescope::testing::CapturedLog log;
+  Built built;
+  built.builder.OnCharacter(character);
+  built.builder.OnCharacter(character);
+  built.builder.OnSample(SampleOf("lift", 0));
+  EXPECT_TRUE(built.last().people[0].model->description.mass_is_assumed);
+  EXPECT_FALSE(built.last().people[0].forces.stated_hand_load.is_known);
+  const std::string text = log.text();
+  const std::string said = "what the node of the suit was told about 'anna' is not used: ";
+  EXPECT_THAT(text, AllOf(HasSubstr(said + "body mass 900"),
+                          HasSubstr(said + "load of -1 kg in the left hand")));
+  EXPECT_EQ(text.find("900"), text.rfind("900")) << "once";
 }
 
 SourceMoment LiveMoment(double secs) {

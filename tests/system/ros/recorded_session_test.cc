@@ -1,5 +1,5 @@
-// What `rosbag record -a` keeps of a session is drawn as its source is, with what other nodes
-// published meanwhile.
+// What `rosbag record -a` keeps of a session is drawn as its source is, with the loads that were
+// told to its node, and with what other nodes published meanwhile.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -68,11 +68,24 @@ class RecordedSession : public testing::RosProgram {
 
   // The pictures of a clip, up to shortly before its end, with all that a viewer sees, but the name
   // of its source.
-  std::vector<render::Image> RenderClip(const std::string& source, const std::string& name) const {
+  std::vector<render::Image> RenderClip(const std::string& source, const std::string& name,
+                                        const std::vector<std::string>& more) const {
     const std::string files = (folder_ / name).string();
-    const auto result =
-        RunProgram({KinescopePath(), "render", source, "--fps", "10", "--seconds", "1.9", "--size",
-                    "640x480", "--overlay", "-title,-names", "--out", files + "_%02d.png"});
+    std::vector<std::string> command = {KinescopePath(),
+                                        "render",
+                                        source,
+                                        "--fps",
+                                        "10",
+                                        "--seconds",
+                                        "1.9",
+                                        "--size",
+                                        "640x480",
+                                        "--overlay",
+                                        "-title,-names",
+                                        "--out",
+                                        files + "_%02d.png"};
+    command.insert(command.end(), more.begin(), more.end());
+    const auto result = RunProgram(command);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::vector<render::Image> pictures;
     for (int i = 0;; ++i) {
@@ -108,7 +121,8 @@ TEST_F(RecordedSession, IsDrawnAsItsSourceIsAndWithWhatOtherNodesPublished) {
   place.transforms[0].transform.rotation.w = 1;
   const ros::Publisher places = node_->advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   places.publish(place);
-  const auto bridge = Start("bridge udp://127.0.0.1:0 --ros required");
+  const auto bridge =
+      Start("bridge udp://127.0.0.1:0 --ros required --mass 95 --hand_load both:12");
   const std::string address = WaitForAddress(*bridge);
   Process recorder({KINESCOPE_ROSBAG_RECORD, "-a", "-O", bag, "__name:=recorder"});
   ASSERT_TRUE(Spin([&] {
@@ -120,8 +134,11 @@ TEST_F(RecordedSession, IsDrawnAsItsSourceIsAndWithWhatOtherNodesPublished) {
   recorder.Signal(SIGINT);
   recorder.WaitForEnd();
 
-  const std::vector<render::Image> expected = RenderClip(source, "source"),
-                                   clip = RenderClip(bag, "bag");
+  // The bag knows what the node was told.
+  const std::vector<render::Image> expected =
+                                       RenderClip(source, "source",
+                                                  {"--mass", "95", "--hand_load", "both:12"}),
+                                   clip = RenderClip(bag, "bag", {});
   ASSERT_EQ(expected.size(), 19U);
   ASSERT_EQ(clip.size(), expected.size());
   for (std::size_t i = 0; i < clip.size(); ++i) {

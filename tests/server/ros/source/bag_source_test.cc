@@ -113,6 +113,21 @@ TEST_F(BagTest, ReadsPeopleOfWhomOnlyLinkStatesWereRecorded) {
   }
 }
 
+TEST_F(BagTest, NamesTransformsElsewhereIfItsPeopleAreThoseOfLinkStates) {
+  const std::string path = Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 20; ++n) {
+      const ros::Time now = RosTimeOf(kBagStart + n * kBagPeriod);
+      bag.write("/lab/link_states", now, LinkStatesOf(PersonAt(n)));
+      bag.write("/lab/tf", now, TransformsOf(PersonAt(n)));
+    }
+  });
+  const kinescope::testing::CapturedLog log;
+  EXPECT_EQ(ReadBag(path).samples.size(), 20U);
+  EXPECT_THAT(log.text(),
+              HasSubstr("has no transforms on /tf (--tf_topic); it has some on /lab/tf: "
+                        "people are those of its link states"));
+}
+
 // What somebody else's driver streamed from a suit, next to a robot with a head and hands of its
 // own.
 TEST_F(BagTest, ReadsTheSamplesOfARecordedBagAsInItsCsv) {
@@ -498,7 +513,8 @@ TEST_F(BagTest, TakesTransformsOfTheTopicThatIsChosen) {
     EXPECT_EQ(read.characters[0].name, "anna");
     EXPECT_EQ(read.samples.size(), 3u);
     EXPECT_THAT(read.counters.ignored,
-                ElementsAre(Pair("topic /second/tf (tf2_msgs/TFMessage)", 3)));
+                ElementsAre(Pair(
+                    "topic /second/tf (tf2_msgs/TFMessage); --tf_topic takes people from it", 3)));
   }
   EXPECT_THAT(RefusalOf(bag), AllOf(HasSubstr("contains neither /tf nor link_states"),
                                     HasSubstr("It has transforms on /second/tf, lab/tf: choose one "
