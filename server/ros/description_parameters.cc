@@ -51,14 +51,14 @@ bool DescriptionParameters::IsOthers(const std::string& parameter, bool& answers
   return !urdf::IsWrittenByKinescope(static_cast<std::string&>(set.value));
 }
 
-// Whether a Kinescope that runs beside this one has its person in it.
-bool DescriptionParameters::IsOfAnotherNode(const std::string& parameter) {
+// The Kinescope that runs beside this one and has its person in it; "": none.
+std::string DescriptionParameters::OwnerOf(const std::string& parameter) {
   for (const RunningNode& node : OtherNodes()) {
     for (const RunningPerson& person : node.people) {
-      if (person.description == ros::names::resolve(parameter)) return true;
+      if (person.description == ros::names::resolve(parameter)) return node.name;
     }
   }
-  return false;
+  return "";
 }
 
 // The parameter of a URDF at this master; nullopt: the master does not answer. A robot keeps its
@@ -82,12 +82,16 @@ std::optional<std::string> DescriptionParameters::DescriptionOf(const std::strin
     bool answers = true;
     const bool is_others = IsOthers(name, answers);
     if (!answers) return std::nullopt;
-    if (is_others || IsOfAnotherNode(name)) continue;
+    if (is_others || !OwnerOf(name).empty()) continue;
     if (name != usual) {
-      spdlog::warn(
-          "the parameter {} belongs to another program and stays as it is: the URDF of the person "
+      const std::string owner = OwnerOf(usual);
+      // A monitor has the people of other nodes: that is no conflict.
+      spdlog::log(
+          !owner.empty() && config_.people_are_of_graph ? spdlog::level::info : spdlog::level::warn,
+          "the parameter {} belongs to {} and stays as it is: the URDF of the person "
           "is in {} (--description sets another name)",
-          ros::names::resolve(usual), ros::names::resolve(name));
+          ros::names::resolve(usual), owner.empty() ? "another program" : "the Kinescope " + owner,
+          ros::names::resolve(name));
     }
     return names_[prefix] = name;
   }

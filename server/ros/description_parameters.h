@@ -41,7 +41,7 @@ class DescriptionParameters {
   };
 
   bool IsOthers(const std::string& parameter, bool& answers);
-  static bool IsOfAnotherNode(const std::string& parameter);
+  static std::string OwnerOf(const std::string& parameter);
   static std::vector<RunningNode> OtherNodes();
   std::optional<std::string> DescriptionOf(const std::string& prefix);
   std::string UrdfOf(const PersonModel& model) const;

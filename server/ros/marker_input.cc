@@ -111,9 +111,8 @@ bool IsLeftOut(const Marker& message, const ShownStyle& style) {
 
 }  // namespace
 
-std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
-                                          std::int64_t monotonic_nanos, const ShownStyle& style,
-                                          const MarkerLook& look,
+std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message, const Now& now,
+                                          const ShownStyle& style, const MarkerLook& look,
                                           std::shared_ptr<const Sweep> sweep) {
   if (IsLeftOut(message, style)) return std::nullopt;
   const auto erase = [&](auto from, auto to) {
@@ -172,9 +171,9 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   entry.stamp_nanos = ToNanos(message.header.stamp);
   entry.is_locked = message.frame_locked != 0;
   entry.is_new = has_new_ = true;
-  const std::int64_t lives = message.lifetime.toNSec();
-  entry.dies_nanos = lives > 0 ? monotonic_nanos + lives : 0;
-  entry.came_nanos = monotonic_nanos;
+  entry.lives_nanos = std::max<std::int64_t>(message.lifetime.toNSec(), 0);
+  entry.dies_nanos = entry.lives_nanos > 0 ? now.graph_nanos + entry.lives_nanos : 0;
+  entry.came_nanos = now.nanos;
   const std::size_t sent = HasPoints(type) ? message.points.size() : 0;
   const std::size_t left = entry.shape->points.size();
   if (left == sent) return std::nullopt;
@@ -304,7 +303,7 @@ bool MarkerStore::PutAt(Entry& entry, const Waiting& message, const Span& place)
   return true;
 }
 
-bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos) {
+bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, const Now& now) {
   auto place = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos, entry.sweep.get());
   const bool is_told = !place && (!entry.stands_in_scene || entry.is_told_missing);
   if (is_told && !entry.is_lost) lost_.push_back(LostOf(key, entry));
@@ -314,9 +313,9 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
   }
   if (!place) place.emplace();
   const bool has_waited = entry.is_new && entry.held_nanos;
-  if (IsHeld(entry, place->first, now_nanos)) return PlaceWaiting(entry, frames, now_nanos);
-  if (has_waited && entry.dies_nanos != 0) {  // it lives from now on, as in RViz
-    entry.dies_nanos += now_nanos - entry.came_nanos;
+  if (IsHeld(entry, place->first, now.nanos)) return PlaceWaiting(entry, frames, now.nanos);
+  if (has_waited && entry.lives_nanos > 0) {  // it lives from now on, as in RViz
+    entry.dies_nanos = now.graph_nanos + entry.lives_nanos;
   }
   StopWaiting(entry, entry.waiting.size());
   entry.is_new = false;
@@ -325,38 +324,54 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames, std::i
                *place);
 }
 
-bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
+void MarkerStore::StartAgain(const Now& now) {
+  constexpr std::int64_t kJustNanos = 100 * kNanosPerMilli;
+  for (auto it = entries_.begin(); it != entries_.end();) {
+    Entry& entry = it->second;
+    const bool is_of_beginning = now.nanos - entry.came_nanos < kJustNanos &&
+                                 entry.stamp_nanos <= now.graph_nanos + kJustNanos;
+    if (entry.is_of_frame || is_of_beginning) {
+      if (entry.lives_nanos > 0) entry.dies_nanos = now.graph_nanos + entry.lives_nanos;
+      ++it;
+      continue;
+    }
+    Release(entry);
+    has_changed_ = true;
+    it = entries_.erase(it);
+  }
+}
+
+bool MarkerStore::Update(const Now& now, const FindFrame& find_frame) {
   // Thousands of markers are looked at less often than there are samples.
   constexpr std::size_t kFew = 256;
   constexpr std::int64_t kNanosPerMarker = 1000;
   const bool is_new = std::exchange(has_new_, false);
-  if (entries_.size() > kFew && !is_new && monotonic_nanos < next_look_nanos_) return false;
-  next_look_nanos_ = monotonic_nanos + static_cast<std::int64_t>(entries_.size()) * kNanosPerMarker;
+  if (entries_.size() > kFew && !is_new && now.nanos < next_look_nanos_) return false;
+  next_look_nanos_ = now.nanos + static_cast<std::int64_t>(entries_.size()) * kNanosPerMarker;
   bool changed = std::exchange(has_changed_, false);
   // A marker that moves is copied with its points, at about 10 ns each.
   constexpr std::int64_t kNanosPerPoint = 100;
   constexpr std::int64_t kRetryNanos = 100'000'000;
   // For transforms of the time of a message. TF keeps its own as long.
   constexpr std::int64_t kLongestWait = 10 * kNanosPerSecond;
-  const bool move = monotonic_nanos >= next_move_nanos_;
-  if (move)
-    next_move_nanos_ = monotonic_nanos + static_cast<std::int64_t>(points_) * kNanosPerPoint;
-  const bool retry = monotonic_nanos >= next_retry_nanos_;
-  if (retry) next_retry_nanos_ = monotonic_nanos + kRetryNanos;
+  const bool move = now.nanos >= next_move_nanos_;
+  if (move) next_move_nanos_ = now.nanos + static_cast<std::int64_t>(points_) * kNanosPerPoint;
+  const bool retry = now.nanos >= next_retry_nanos_;
+  if (retry) next_retry_nanos_ = now.nanos + kRetryNanos;
   FrameCache frames(find_frame);
   for (auto it = entries_.begin(); it != entries_.end();) {
     Entry& entry = it->second;
     const bool waits = entry.is_new && entry.held_nanos;
-    if (!waits && entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
+    if (!waits && entry.dies_nanos != 0 && now.graph_nanos >= entry.dies_nanos) {
       Release(entry);
       changed = changed || entry.placed;
       it = entries_.erase(it);
       continue;
     }
-    if (entry.is_early && monotonic_nanos - entry.came_nanos > kLongestWait) entry.is_early = false;
+    if (entry.is_early && now.nanos - entry.came_nanos > kLongestWait) entry.is_early = false;
     const bool is_due =
         entry.is_lost ? retry : entry.is_new || ((entry.is_locked || entry.is_early) && move);
-    if (is_due && Place(it->first, entry, frames, monotonic_nanos)) changed = true;
+    if (is_due && Place(it->first, entry, frames, now)) changed = true;
     ++it;
   }
   if (!changed) return false;

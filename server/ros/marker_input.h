@@ -23,6 +23,7 @@
 #include "server/ros/frame_ways.h"
 #include "server/ros/marker_look.h"
 #include "server/ros/marker_message.h"
+#include "server/ros/now.h"
 #include "server/ros/shown_marker.h"
 
 namespace kinescope::ros_bridge {
@@ -45,8 +46,7 @@ class MarkerStore {
   /// @return why the message, or a part of it, was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
-                                             std::int64_t monotonic_nanos,
-                                             const ShownStyle& style = {},
+                                             const Now& now, const ShownStyle& style = {},
                                              const MarkerLook& look = {},
                                              std::shared_ptr<const Sweep> sweep = nullptr);
 
@@ -54,12 +54,11 @@ class MarkerStore {
   template <class Message>
   [[nodiscard]] std::optional<Refusal> ApplyAll(std::size_t topic,
                                                 const std::vector<Message>& messages,
-                                                std::int64_t monotonic_nanos,
-                                                const ShownStyle& style = {},
+                                                const Now& now, const ShownStyle& style = {},
                                                 const MarkerLook& look = {}) {
     std::optional<Refusal> first;
     for (const Message& message : messages) {
-      auto refusal = Apply(topic, message, monotonic_nanos, style, look, SweepOf(message));
+      auto refusal = Apply(topic, message, now, style, look, SweepOf(message));
       if (refusal && !first) first = std::move(refusal);
     }
     return first;
@@ -74,7 +73,11 @@ class MarkerStore {
   /// frame waits for half a second, while the one before it stays, then stands by the newest one
   /// until they have come. Unknown frames are looked up ten times per second. True if the list of
   /// `markers()` has changed.
-  [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
+  [[nodiscard]] bool Update(const Now& now, const FindFrame& find_frame);
+
+  /// The time of the graph was set back, as a recording that begins again does: forgets the markers
+  /// of messages, as RViz, but not those of its new beginning, which may be here already.
+  void StartAgain(const Now& now);
 
   /// Looks all frames up again: the reference frame is another one.
   void PlaceAgain();
@@ -118,7 +121,8 @@ class MarkerStore {
     std::int64_t came_nanos = 0;
     std::optional<std::int64_t> held_nanos;     // since then it waits for transforms of its time
     std::optional<std::int64_t> gave_up_nanos;  // then it had waited in vain
-    std::int64_t dies_nanos = 0;                // monotonic clock; 0: never
+    std::int64_t lives_nanos = 0;               // 0: for ever
+    std::int64_t dies_nanos = 0;                // clock of the graph; 0: never
   };
 
   class FrameCache;
@@ -127,7 +131,7 @@ class MarkerStore {
     FramePlace first;                // at the stamp of a message
     std::optional<urdf::Pose> last;  // at the end of its sweep, if it is elsewhere then
   };
-  bool Place(const Key& key, Entry& entry, FrameCache& frames, std::int64_t now_nanos);
+  bool Place(const Key& key, Entry& entry, FrameCache& frames, const Now& now);
   static bool IsHeld(Entry& entry, const FramePlace& place, std::int64_t now_nanos);
   void KeepWaiting(Entry& entry);
   /// The first `count` of those that wait.

@@ -125,7 +125,7 @@ void MarkerInbox::PassOn() {
 }
 
 // Samples wait meanwhile, so the rest may have to.
-void MarkerInbox::TakeDecoded() {
+void MarkerInbox::TakeDecoded(std::int64_t graph_nanos) {
   constexpr std::int64_t kMostNanos = 2'000'000;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -135,21 +135,22 @@ void MarkerInbox::TakeDecoded() {
   const std::int64_t began = MonotonicNanos();
   while (!taken_.empty() && MonotonicNanos() - began < kMostNanos) {
     const std::size_t weight = WeightOf(taken_.front());
-    Take(taken_.front());
+    Take(taken_.front(), graph_nanos);
     taken_.pop_front();
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_ -= weight;
   }
 }
 
-void MarkerInbox::Take(DecodedMessage& message) {
+void MarkerInbox::Take(DecodedMessage& message, std::int64_t graph_nanos) {
   const std::size_t topic = message.topic;
+  const Now came(message.monotonic_nanos, graph_nanos);
   if (message.has_single_markers) {
-    for (const auto& marker : message.markers) Take(topic, marker, message.monotonic_nanos);
+    for (const auto& marker : message.markers) Take(topic, marker, came);
     return;
   }
-  const auto undrawn = store_.ApplyAll(topic, message.markers, message.monotonic_nanos,
-                                       topics_[topic].style, message.look);
+  const auto undrawn =
+      store_.ApplyAll(topic, message.markers, came, topics_[topic].style, message.look);
   if (message.is_end) return;
   if (message.refusal) return Refuse(topic, *message.refusal);
   if (undrawn) return Refuse(topic, *undrawn);
@@ -174,12 +175,12 @@ void MarkerInbox::CountUsed(std::size_t topic) {
 }
 
 void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
-                       std::int64_t monotonic_nanos) {
+                       const Now& now) {
   if (IsOwnMarker(topics_[topic].name, message.ns)) {
     return Refuse(topic, {"of Kinescope", "markers of Kinescope: the scene has them already",
                           /*is_in_log=*/false});
   }
-  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos, topics_[topic].style)) {
+  if (const auto refusal = store_.Apply(topic, message, now, topics_[topic].style)) {
     return Refuse(topic, *refusal);
   }
   CountUsed(topic);
@@ -271,7 +272,7 @@ std::vector<const RobotFrames*> MarkerInbox::Robots() const {
   return robots_ ? robots_->Frames() : std::vector<const RobotFrames*>();
 }
 
-bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
+bool MarkerInbox::UpdateFrames(const Now& now) {
   if (frames_.empty()) return false;
   const auto list = [this](const ShownFrames::TakeFrame& take) {
     for (const auto& [name, frame] : tf_->frames()) take(frame);
@@ -287,7 +288,7 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
   const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
   bool has_changed = false;
   for (ShownFrames& frames : frames_) {
-    has_changed = frames.Update(monotonic_nanos, list, find_now) || has_changed;
+    has_changed = frames.Update(now, list, find_now) || has_changed;
   }
   if (std::string lost = frames_.front().TakeLost(); !lost.empty()) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -298,22 +299,23 @@ bool MarkerInbox::UpdateFrames(std::int64_t monotonic_nanos) {
   return has_changed;
 }
 
-void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
+void MarkerInbox::Deliver(const Now& now, InputSink& sink) {
   const auto find = [this](const std::string& frame, std::int64_t stamp_nanos) {
     return Find(frame, stamp_nanos);
   };
-  TakeDecoded();
+  if (now.graph_nanos < std::exchange(graph_nanos_, now.graph_nanos)) store_.StartAgain(now);
+  TakeDecoded(now.graph_nanos);
   if (placed_in_ != frame_->name()) {
     placed_in_ = frame_->name();
     store_.PlaceAgain();
   }
-  bool changed = store_.Update(monotonic_nanos, find);
-  changed = UpdateFrames(monotonic_nanos) || changed;
+  bool changed = store_.Update(now, find);
+  changed = UpdateFrames(now) || changed;
   if (changed) sink.OnMarkers(Together(store_.markers(), frames_));
-  images_.Update(monotonic_nanos, find);
+  images_.Update(now.nanos, find);
   if (images_.TakeChanged()) sink.OnImages(images_.images());
   const auto find_now = [this](const std::string& frame) { return PoseOf(Find(frame, 0)); };
-  if (camera_frame_.Update(monotonic_nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
+  if (camera_frame_.Update(now.nanos, find_now)) sink.OnCameraBase(*camera_frame_.pose());
   const auto note = [this](const WithoutPlace& lost) {
     const std::string text = TextOf(lost);
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -322,7 +324,7 @@ void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
     counters.last_problem = text;
   };
   for (const WithoutPlace& lost : store_.TakeLost()) note(lost);
-  WarnOfUnplaced(monotonic_nanos);
+  WarnOfUnplaced(now.nanos);
   for (const WithoutPlace& lost : images_.TakeLost()) note(lost);
 }
 

@@ -63,7 +63,7 @@ class MarkerInbox {
   /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
   /// Passes on the markers, the pictures and the camera's frame if they have changed.
-  void Deliver(std::int64_t monotonic_nanos, InputSink& sink);
+  void Deliver(const Now& now, InputSink& sink);
 
   /// By topic. Any thread.
   std::map<std::string, InputCounters> counters() const;
@@ -78,10 +78,9 @@ class MarkerInbox {
   };
 
   void PassOn();
-  void TakeDecoded();
-  void Take(DecodedMessage& message);
-  void Take(std::size_t topic, const visualization_msgs::Marker& message,
-            std::int64_t monotonic_nanos);
+  void TakeDecoded(std::int64_t graph_nanos);
+  void Take(DecodedMessage& message, std::int64_t graph_nanos);
+  void Take(std::size_t topic, const visualization_msgs::Marker& message, const Now& now);
   void TakeImage(std::size_t topic, CameraImage image);
   void CountUsed(std::size_t topic);
   void Refuse(std::size_t topic, const Refusal& refusal);
@@ -90,7 +89,7 @@ class MarkerInbox {
   std::string TextOf(const WithoutPlace& lost) const;
   std::optional<FramePlace> Find(const std::string& frame, std::int64_t stamp_nanos) const;
   std::vector<const RobotFrames*> Robots() const;
-  bool UpdateFrames(std::int64_t monotonic_nanos);
+  bool UpdateFrames(const Now& now);
 
   const std::vector<ShownTopic> topics_;
   const std::shared_ptr<const SceneFrame> frame_;
@@ -108,6 +107,7 @@ class MarkerInbox {
   std::vector<ShownFrames> frames_;
   std::map<int, Body> bodies_;  // by character
   std::int64_t looked_nanos_ = 0;
+  std::int64_t graph_nanos_ = 0;             // of the newest Deliver()
   std::set<std::string> unplaced_, warned_;  // texts: when it looked last; of the log
   bool has_told_of_trees_ = false;
 

@@ -76,12 +76,20 @@ class MarkerWriter {
   Marker& AddToLink(int segment, const char* ns, int id, const Eigen::Vector3d& position,
                     double radius, const Rgb& color) {
     Marker& marker = Add(ns, id, Marker::SPHERE, position, Cube(2 * radius), color);
-    if (frames_ == MarkerFrames::kReference) return marker;
+    LockToLink(segment, {position, Eigen::Quaterniond::Identity()}, marker);
+    return marker;
+  }
+
+  // `pose` is in the reference frame.
+  void LockToLink(int segment, const urdf::Pose& pose, Marker& marker) const {
+    Set(marker.pose.orientation, pose.orientation);
+    if (frames_ == MarkerFrames::kReference) return;
     const urdf::Pose& link = person_.links[At(segment)];
+    const Eigen::Quaterniond link_from_world = link.orientation.conjugate();
     marker.header.frame_id = names_.links[At(segment)];
     marker.frame_locked = true;
-    Set(marker.pose.position, link.orientation.conjugate() * (position - link.position));
-    return marker;
+    Set(marker.pose.position, link_from_world * (pose.position - link.position));
+    Set(marker.pose.orientation, link_from_world * pose.orientation);
   }
 
   void Remove(const char* ns, int id) {
@@ -138,7 +146,8 @@ void AddHeld(const PersonState& person, MarkerWriter& out) {
     Marker& marker =
         out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
                 solid.pose.position, size, kHandLoadColor);
-    Set(marker.pose.orientation, solid.pose.orientation);
+    // What both hold follows one of them.
+    out.LockToLink(urdf::HandSegmentOf(solid.hand.value_or(urdf::kRight)), solid.pose, marker);
   }
 }
 

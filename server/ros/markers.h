@@ -24,16 +24,16 @@ inline constexpr double kCopThickness = 0.01;
 
 enum class MarkerFrames {
   kReference,  // all in the reference frame
-  /// Loads and centre of mass in the frame of their link, and locked to it: RViz then moves them
-  /// with the robot, which it renders from newer transforms than the markers. Requires Kinescope's
-  /// TF.
+  /// Loads, centre of mass and what hands hold in the frame of their link, and locked to it: RViz
+  /// then moves them with the robot, which it renders from newer transforms than the markers.
+  /// Requires Kinescope's TF.
   kLinks,
 };
 
 /// ns "loads": one sphere per scored joint, id = urdf::Joint; grey if the load is unknown. ns
-/// "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor, id 0;
-/// "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
-/// (kMetresPerNewton), id = urdf::Side; "hand_loads": the hand loads as solids. Absent and unknown
+/// "com": a sphere, id 0; "hand_loads": the hand loads as solids. Always in the reference frame: ns
+/// "cop": a disc on the floor, id 0; "support": the border of the support polygon, id 0;
+/// "foot_forces": one arrow per foot (kMetresPerNewton), id = urdf::Side. Absent and unknown
 /// values have no marker; those that `message` had, the last one of this person, are deleted.
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,

@@ -26,7 +26,7 @@ const Vector3d kShaftColor(0.8, 0.8, 0.3), kHeadColor(1, 0.1, 0.6), kGrey(0.7, 0
 constexpr int kSidesOfHead = 8;
 constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
 constexpr double kFarthest = kFarthestMarker / 2;
-constexpr std::size_t kMostNamed = 8, kLongestName = 100;     // bytes
+constexpr std::size_t kMostNamed = 8, kLongestFrame = 100;    // bytes
 constexpr int kIds = static_cast<int>(kMostShownFrames) + 3;  // of each way to show them
 constexpr double kSilentSecs = 2;  // after that a frame is no longer heard of
 
@@ -58,7 +58,7 @@ std::string ListOf(const char* what, const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
     text += (text.empty() ? std::string(what) + ": " : ", ") +
-            PrintableLine(names[i].substr(0, kLongestName));
+            PrintableLine(names[i].substr(0, kLongestFrame));
   }
   if (names.size() > kMostNamed) {
     text += " and " + std::to_string(names.size() - kMostNamed) + " more";
@@ -93,11 +93,11 @@ bool ShownFrames::Shown::operator==(const Shown& other) const {
          grey == other.grey && alpha == other.alpha;
 }
 
-bool ShownFrames::Update(std::int64_t now_nanos, const ListFrames& list, const FindFrame& find) {
+bool ShownFrames::Update(const Now& now, const ListFrames& list, const FindFrame& find) {
   // A recording that is played again begins earlier.
-  const bool is_again = looked_nanos_ && now_nanos < *looked_nanos_;
-  if (looked_nanos_ && !is_again && now_nanos - *looked_nanos_ < every_nanos_) return false;
-  looked_nanos_ = now_nanos;
+  const bool is_again = looked_ && now.graph_nanos < looked_->graph_nanos;
+  if (looked_ && !is_again && now.nanos - looked_->nanos < every_nanos_) return false;
+  looked_ = now;
   if (is_again) {
     seen_.clear();
     lost_.clear();
@@ -105,36 +105,36 @@ bool ShownFrames::Update(std::int64_t now_nanos, const ListFrames& list, const F
   list([&](const TreeFrame& frame) {
     const auto [place, is_new] = seen_.try_emplace(frame.name);
     Seen& seen = place->second;
-    if (is_new || seen.newest_nanos != frame.newest_nanos) seen.since_nanos = now_nanos;
+    if (is_new || seen.newest_nanos != frame.newest_nanos) seen.since_nanos = now.graph_nanos;
     if (seen.parent != frame.parent) seen.parent = frame.parent;
     seen.newest_nanos = frame.newest_nanos;
-    seen.listed_nanos = now_nanos;
+    seen.listed_nanos = now.nanos;
   });
   std::vector<const Frame*> frames;
   for (const Frame& frame : seen_) {
     const Seen& seen = frame.second;
-    if (seen.listed_nanos == now_nanos && OwnAgeOf(seen, now_nanos) < style_.frames.timeout_secs) {
+    if (seen.listed_nanos == now.nanos && OwnAgeOf(seen, now) < style_.frames.timeout_secs) {
       frames.push_back(&frame);
     }
   }
   std::sort(frames.begin(), frames.end(), [](auto* a, auto* b) { return a->first < b->first; });
-  std::vector<Shown> shown = Place(frames, find, now_nanos);
+  std::vector<Shown> shown = Place(frames, find, now);
   if (shown == shown_) return false;
   shown_ = std::move(shown);
   Draw();
   return true;
 }
 
-double ShownFrames::OwnAgeOf(const Seen& frame, std::int64_t now_nanos) {
-  return frame.newest_nanos == 0 ? 0 : Secs(now_nanos - frame.since_nanos);
+double ShownFrames::OwnAgeOf(const Seen& frame, const Now& now) {
+  return frame.newest_nanos == 0 ? 0 : Secs(now.graph_nanos - frame.since_nanos);
 }
 
-double ShownFrames::AgeOf(const Seen& frame, std::int64_t now_nanos) const {
-  double age = OwnAgeOf(frame, now_nanos);
+double ShownFrames::AgeOf(const Seen& frame, const Now& now) const {
+  double age = OwnAgeOf(frame, now);
   auto parent = seen_.find(frame.parent);
   for (int i = 0; i < kDeepest && parent != seen_.end(); ++i) {
-    if (parent->second.listed_nanos != now_nanos) break;
-    age = std::max(age, OwnAgeOf(parent->second, now_nanos));
+    if (parent->second.listed_nanos != now.nanos) break;
+    age = std::max(age, OwnAgeOf(parent->second, now));
     parent = seen_.find(parent->second.parent);
   }
   return age;
@@ -150,7 +150,7 @@ bool ShownFrames::HasLoop(const Seen& frame) const {
 }
 
 std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame*>& frames,
-                                                   const FindFrame& find, std::int64_t now_nanos) {
+                                                   const FindFrame& find, const Now& now) {
   const FramesStyle& style = style_.frames;
   std::map<std::string, std::optional<urdf::Pose>> places;  // most frames are parents, too
   const auto find_near = [&](const std::string& name) {
@@ -164,13 +164,13 @@ std::vector<ShownFrames::Shown> ShownFrames::Place(const std::vector<const Frame
     const auto& [name, frame] = *each;
     if (all.size() == kMostShownFrames) break;
     if (std::find(style.hidden.begin(), style.hidden.end(), name) != style.hidden.end()) continue;
-    const double age_secs = AgeOf(frame, now_nanos), age = age_secs / style.timeout_secs;
+    const double age_secs = AgeOf(frame, now), age = age_secs / style.timeout_secs;
     if (age >= 1) continue;
     const std::optional<urdf::Pose> pose = find_near(name);
     if (!pose) {
       const auto before = lost_.find(name);
       const bool is_heard_of = age_secs < kSilentSecs && lost.size() < kMostShownFrames;
-      const std::int64_t since = before == lost_.end() ? now_nanos : before->second.since_nanos;
+      const std::int64_t since = before == lost_.end() ? now.nanos : before->second.since_nanos;
       const Why why = places[name] ? Why::kFar : HasLoop(frame) ? Why::kLoop : Why::kNoWay;
       if (is_heard_of) lost[name] = {since, why};
       continue;
@@ -219,7 +219,7 @@ void ShownFrames::Draw() {
   for (std::size_t i = 0; style_.frames.has_names && i < shown_.size(); ++i) {
     const Shown& frame = shown_[i];
     const auto name = EmptyMarker(first_id_ + 3 + static_cast<int>(i), MarkerType::kText);
-    name->text = PrintableLine(frame.name.substr(0, kLongestName));
+    name->text = PrintableLine(frame.name.substr(0, kLongestFrame));
     name->scale.z() = style_.frames.name_m.value_or(kNameHeight * length);
     name->pose.position = frame.pose.position - Vector3d(0, 0, name->scale.z() / 2);
     name->color = Faded(color, frame.grey, frame.alpha);
@@ -230,7 +230,7 @@ void ShownFrames::Draw() {
 std::string ShownFrames::TakeLost() {
   std::map<Why, std::vector<std::string>> names;
   for (const auto& [name, lost] : lost_) {
-    const bool is_for_long = looked_nanos_ && *looked_nanos_ - lost.since_nanos >= kNanosPerSecond;
+    const bool is_for_long = looked_ && looked_->nanos - lost.since_nanos >= kNanosPerSecond;
     if (is_for_long && told_.size() < kMostShownFrames && told_.insert(name).second) {
       names[lost.why].push_back(name);
     }

@@ -15,6 +15,7 @@
 #include "core/graph_view.h"
 #include "core/scene_marker.h"
 #include "server/ros/force_frames.h"
+#include "server/ros/now.h"
 #include "urdf/kinematics.h"
 
 namespace kinescope::ros_bridge {
@@ -35,8 +36,8 @@ class ShownFrames {
 
   /// True if the markers have changed. Of more than kMostShownFrames frames the first by name are
   /// shown. A frame whose transforms do not come any more turns grey, pale, and is gone after the
-  /// timeout of the style; that one is by the clock of `now_nanos`.
-  bool Update(std::int64_t now_nanos, const ListFrames& list, const FindFrame& find);
+  /// timeout of the style, by the clock of the graph.
+  bool Update(const Now& now, const ListFrames& list, const FindFrame& find);
 
   /// Axes, shafts and heads of all arrows, then the names, in the frame of the scene.
   const MarkerList& markers() const { return markers_; }
@@ -50,7 +51,7 @@ class ShownFrames {
   struct Seen {
     std::string parent;
     std::int64_t newest_nanos = 0;  // stamp of its transform; 0: it always holds
-    std::int64_t since_nanos = 0;   // the clock of Update
+    std::int64_t since_nanos = 0;   // clock of the graph
     std::int64_t listed_nanos = 0;  // then it was there
   };
   using Frame = std::pair<const std::string, Seen>;
@@ -69,20 +70,20 @@ class ShownFrames {
   };
 
   /// Since it was last heard of, s.
-  static double OwnAgeOf(const Seen& frame, std::int64_t now_nanos);
+  static double OwnAgeOf(const Seen& frame, const Now& now);
   /// Whether it is in a loop, or hangs on one.
   bool HasLoop(const Seen& frame) const;
   /// Of it, or of any that it hangs on.
-  double AgeOf(const Seen& frame, std::int64_t now_nanos) const;
+  double AgeOf(const Seen& frame, const Now& now) const;
   /// `frames`: those that are not gone, by name.
   std::vector<Shown> Place(const std::vector<const Frame*>& frames, const FindFrame& find,
-                           std::int64_t now_nanos);
+                           const Now& now);
   void Draw();
 
   ShownStyle style_;
   std::int64_t every_nanos_;
   int first_id_;  // of its markers
-  std::optional<std::int64_t> looked_nanos_;
+  std::optional<Now> looked_;
   std::unordered_map<std::string, Seen> seen_;
   std::vector<Shown> shown_;
   MarkerList markers_;
