@@ -26,6 +26,12 @@ ScenePartSet::ScenePartSet() {
   for (const ScenePartInfo& info : kSceneParts) Set(info.part, info.by_default);
 }
 
+Theme ThemeOn(const Rgb& background) {
+  constexpr double kDarkBelow = 0.4;
+  const double luma = 0.2126 * background[0] + 0.7152 * background[1] + 0.0722 * background[2];
+  return luma < kDarkBelow ? Theme::kDark : Theme::kLight;
+}
+
 const ThemeColors& ColorsOf(Theme theme) {
   static const ThemeColors light = {{0.955, 0.962, 0.972},
                                     {0.915, 0.925, 0.940},

@@ -131,6 +131,8 @@ struct ThemeColors {
 };
 
 const ThemeColors& ColorsOf(Theme theme);
+/// The one whose floor and texts go with that background.
+Theme ThemeOn(const Rgb& background);
 /// m, from the camera's target; the floor has faded into the background there.
 inline constexpr double kFloorReach = 9;
 /// m; a disc with corners comes a little closer than its radius.

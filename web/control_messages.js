@@ -9,10 +9,10 @@ const readJob = object({
   id: number, kind: oneOf(/** @type {const} */ (['clip', 'report'])), file: string, progress: number, problem: string,
   state: oneOf(/** @type {const} */ (['waiting', 'making', 'done', 'failed', 'cancelled'])),
 });
-const ORIGINS = /** @type {const} */ (['operator', 'option', 'assumed', 'stream', 'poses']);
+const ORIGINS = /** @type {const} */ (['operator', 'option', 'assumed', 'stream', 'poses', 'bridge']);
 const readOrigin = oneOf(ORIGINS);
 const readHands = object({
-  is_known: boolean, right_kg: number, left_kg: number, both_kg: number, since_micros: number, by: string,
+  is_known: boolean, right_kg: number, left_kg: number, both_kg: number, since_micros: orNull(number), by: string,
 });
 const readPerson = object({
   character: number,

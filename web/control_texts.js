@@ -40,7 +40,7 @@ export function recordingText(now) {
 
 const ORIGIN_TEXTS = {
   operator: 'set by an operator', option: 'set at the start', assumed: 'assumed', stream: 'from the stream',
-  poses: 'measured in the poses',
+  poses: 'measured in the poses', bridge: 'as the node of the suit was told',
 };
 
 /** @param {import('./control_messages.js').Origin} origin */
@@ -63,6 +63,7 @@ export function handsText(hands) {
     hands.both_kg > 0 ? `${kilograms(hands.both_kg)} in both hands` : '',
   ].filter(Boolean);
   const what = !hands.is_known ? 'not known' : parts.length > 0 ? parts.join(', ') : 'nothing';
+  if (hands.since_micros === null) return `Held now: ${what} (as the node of the suit was told)`;
   return `Held now: ${what}, since ${clock(hands.since_micros)} (${hands.by})`;
 }
 

@@ -43,8 +43,11 @@ class Pixels {
       case PixelFormat::Kind::kNumber: break;
     }
     const double number = Number(at);
-    if (!std::isfinite(number)) return {0, 0, 0};
-    const double share = most_ > least_ ? (number - least_) / (most_ - least_) : 0;
+    if (std::isnan(number) || most_ < least_) return {0, 0, 0};
+    // Infinite is farther than all else, as depth cameras mean it.
+    const double share = most_ > least_   ? (number - least_) / (most_ - least_)
+                         : number > most_ ? 1
+                                          : 0;
     const int grey = Byte(255 * share);
     return {grey, grey, grey};
   }

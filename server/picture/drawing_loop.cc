@@ -15,6 +15,13 @@ double MillisBetween(DrawingLoop::Clock::time_point from, DrawingLoop::Clock::ti
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
+void Dress(const DrawingSettings& settings, render::SceneLook& look) {
+  settings.people.ApplyTo(look);
+  if (!settings.background) return;
+  look.background = settings.background;
+  look.theme = render::ThemeOn(*settings.background);
+}
+
 }  // namespace
 
 render::PictureSpec LiveView(int width, int height) {
@@ -104,10 +111,10 @@ std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& 
 
 render::PictureSpec DrawingLoop::LiveSpec() const {
   render::PictureSpec view = LiveView(settings_.width, settings_.height);
-  settings_.people.ApplyTo(view.look);
+  if (is_dark_) view.look.theme = render::Theme::kDark;
+  Dress(settings_, view.look);
   view.look.trails = trails_.Make();
   view.look.ghosts = state_->ghosts;
-  if (is_dark_) view.look.theme = render::Theme::kDark;
   return view;
 }
 
@@ -207,7 +214,7 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   Order order = std::move(orders_.front());
   orders_.pop_front();
   in_hand_ = std::move(order.picture);
-  settings_.people.ApplyTo(order.view.look);
+  Dress(settings_, order.view.look);
   if (!order.state) order.view.look.trails = trails_.Make();
   const std::shared_ptr<const SceneState> state = order.state ? order.state : state_;
   order.view.look.ghosts = state->ghosts;

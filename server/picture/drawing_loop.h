@@ -32,8 +32,9 @@ struct DrawingSettings {
   std::string name = "picture";  // begins the lines in the log
   int width = 1280;              // of the live picture, px
   int height = 720;
-  double rate_hz = 30;     // maximum frame rate of the live picture
-  PeopleLook people = {};  // of all pictures
+  double rate_hz = 30;                 // maximum frame rate of the live picture
+  PeopleLook people = {};              // of all pictures
+  std::optional<Rgb> background = {};  // of all pictures, with the theme that fits
   TrailSettings trails = {};
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };

@@ -95,8 +95,7 @@ class RvizReader {
     const Rgb rgb = rviz::ColorOf(all, "Background Color", {kDarkest, kDarkest, kDarkest});
     NameBadColors(all, "");
     Set("background", ToHex(rgb), line);
-    const double luma = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-    Set("theme", luma < 0.4 ? "dark" : "light", line);
+    Set("theme", render::ThemeOn(rgb) == render::Theme::kDark ? "dark" : "light", line);
     picture_.fixed_frame = rviz::FrameOf(all, "Fixed Frame", kUsualFrameOfRviz);
     picture_.fixed_frame_line = LineOf(all.IsDefined() ? all : manager);
     if (!BoolOf(all, "Default Light", true)) {
@@ -304,7 +303,7 @@ class RvizReader {
     }
     if (IsTopicName(name)) {
       picture_.topics.push_back({name, style, Shown(called), is_of_people, LineOf(display)});
-    } else if (!is_marker) {
+    } else {
       const std::string why =
           name.empty() ? "it has no topic" : Quoted(name) + " is no name of a topic";
       Remark(display, called + " is not drawn: " + why);

@@ -240,6 +240,9 @@ void ApplyRviz(const options::FilePath& file, int height_px, options::OptionList
   for (const RvizPicture::Setting& setting : picture.settings) {
     if (setting.option == "show" && HasTopics(list)) continue;  // the topics have the frames
     options::Option* const option = list.Find(setting.option);
+    if (option == nullptr && setting.option == "theme" && list.Find("background") != nullptr) {
+      continue;  // it follows from the background
+    }
     if (option == nullptr) {
       missing += (missing.empty() ? "" : ", ") + setting.option;
     } else if (option->channel == Channel::kDefault && list.HasEffect(setting.option) &&

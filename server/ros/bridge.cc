@@ -175,13 +175,16 @@ class Bridge : public RosBridge {
   void TakeInputs(InputSink& to) override {
     InWallTime in_wall_time(to, clock_);
     InputSink& sink = clock_.has_time() ? static_cast<InputSink&>(in_wall_time) : to;
+    const std::int64_t now = MonotonicNanos();
+    const std::int64_t graph_now = IsSimulated() ? ToNanos(ros::Time::now()) : now;
+    const bool is_set_back = graph_now < std::exchange(graph_nanos_, graph_now);
+    if (is_set_back) transforms_->StartAgain(graph_now);
     queue_.callAvailable(ros::WallDuration(0));
     for (const std::string& text : std::exchange(marks_in_, {})) sink.OnMark(text);
     if (view_listeners_) sink.OnViewListeners(*std::exchange(view_listeners_, std::nullopt));
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
-    const std::int64_t now = MonotonicNanos();
     if (config_.finds_frame && scene_frame_->IsDue(now)) {
       scene_frame_->Update(now, markers_in_ ? markers_in_->FirstFrame() : "");
       const std::lock_guard<std::mutex> lock(frame_mutex_);
@@ -189,10 +192,7 @@ class Bridge : public RosBridge {
     }
     // Robots first: their links may be frames of markers.
     if (robots_in_) robots_in_->Deliver(now, is_stale_ ? 0 : shown_stamp_nanos_, sink);
-    const bool is_simulated = IsSimulated();
-    if (markers_in_) {
-      markers_in_->Deliver({now, is_simulated ? ToNanos(ros::Time::now()) : now}, sink);
-    }
+    if (markers_in_) markers_in_->Deliver({now, graph_now}, sink);
   }
 
   void Publish(const SceneState& state) override {
@@ -269,10 +269,12 @@ class Bridge : public RosBridge {
       FillPerson(state.people[i], outlet.names, NamespaceOf(topics->joint_loads.getTopic()),
                  message.people[i]);
     }
-    if (std::equal(message.people.begin(), message.people.end(), people_told_.people.begin(),
-                   people_told_.people.end(), AreEqual)) {
-      return;
-    }
+    const std::int64_t now = MonotonicNanos();
+    const bool is_same =
+        std::equal(message.people.begin(), message.people.end(), people_told_.people.begin(),
+                   people_told_.people.end(), AreEqual);
+    if (is_same && now - told_nanos_ < kTellEveryNanos) return;
+    told_nanos_ = now;
     people_told_ = message;
     node->people.publish(message);
   }
@@ -529,9 +531,11 @@ class Bridge : public RosBridge {
   std::map<int, Outlet> outlets_;           // by character
   kinescope_ros::PersonArray people_now_;   // reused, keeps its memory
   kinescope_ros::PersonArray people_told_;  // to others
+  std::int64_t told_nanos_ = 0;             // then; monotonic clock
   std::optional<StreamStatus>
       status_;  // of the samples of one person at a time; from the first diagnosis on
   bool is_stale_ = false;
+  std::int64_t graph_nanos_ = 0;  // clock of the graph, when inputs were taken last
   std::uint64_t last_live_number_ = 0;
   std::int64_t shown_stamp_nanos_ = 0;  // of the newest live state, in the graph's time
   int jumps_ = 0;                       // of clock_, that were noticed

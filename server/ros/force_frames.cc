@@ -137,6 +137,22 @@ void TfTree::SetBack() {
   }
 }
 
+void TfTree::StartAgain(std::int64_t now_nanos) {
+  constexpr std::int64_t kJustNanos = 100 * kNanosPerMilli;
+  buffer_.clear();  // static ones stay
+  for (auto each = moving_.begin(); each != moving_.end();) {
+    Moving& moving = each->second;
+    if (ToNanos(moving.newest.header.stamp) <= now_nanos + kJustNanos) {
+      buffer_.setTransform(moving.newest, "/tf", false);
+      moving.too_old_in_a_row = moving.behind_in_a_row = 0;
+      ++each;
+    } else {
+      frames_.erase(each->first);
+      each = moving_.erase(each);
+    }
+  }
+}
+
 void TfTree::Note(const std::string& frame, const geometry_msgs::TransformStamped& transform) {
   const auto moving = moving_.find(frame);
   TreeFrame& known = frames_[frame];

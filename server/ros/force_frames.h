@@ -49,6 +49,10 @@ class TfTree {
   /// set back, as by a bag in a loop: what was kept of it is forgotten then.
   std::vector<Refusal> Add(const tf2_msgs::TFMessage& message, bool is_static);
 
+  /// The clock of the graph was set back to `now_nanos`: forgets, as RViz, what was kept of moving
+  /// frames until now, but not of the new time, which may be here already.
+  void StartAgain(std::int64_t now_nanos);
+
   /// Whether `frame` is among those of other nodes.
   bool Knows(const std::string& frame) const { return buffer_._frameExists(frame); }
 

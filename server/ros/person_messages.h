@@ -4,16 +4,21 @@
 
 #include <kinescope/PersonArray.h>
 
+#include <cstdint>
 #include <string>
 
 #include "core/person_change.h"
 #include "core/scene_state.h"
+#include "core/system/clocks.h"
 #include "server/ros/names.h"
 
 namespace kinescope::ros_bridge {
 
 /// Of kinescope/PersonArray, of all nodes; as /tf, no node's own. A latched message per node.
 inline constexpr char kPeopleTopic[] = "/kinescope/people";
+/// It comes again while samples come: a bag that is split has it in each file, and others notice
+/// that a node has gone.
+inline constexpr std::int64_t kTellEveryNanos = kNanosPerSecond;
 
 /// `topics`: in front of the names of the person's topics, "/kinescope/".
 void FillPerson(const PersonState& person, const PersonNames& names, const std::string& topics,

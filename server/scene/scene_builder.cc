@@ -90,6 +90,9 @@ PersonChange SceneBuilder::StatedOf(int id) const {
   if (character != characters_.end()) {
     const PersonChange& told = character->second.told;
     if (options_.body.mass_is_assumed) stated.mass_kg = told.mass_kg;
+    PersonChange supposed = stated;
+    if (supposed.mass_kg) *supposed.mass_kg *= options_.supposed.mass_factor;
+    if (FindDefect(supposed).empty()) stated = supposed;
     if (options_.body.sex_is_assumed) stated.sex = told.sex;
   }
   const auto inputs = inputs_.find(id);
@@ -108,8 +111,20 @@ void SceneBuilder::ForgetStoppedHands(PersonInputs& inputs) {
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
-// Another node may be wrong, or not be one of ours.
-void SceneBuilder::ForgetImpossible(Character& character) {
+HandLoad SceneBuilder::ToldHandLoadOf(int id) const {
+  const auto character = characters_.find(id);
+  if (character == characters_.end() || !character->second.told_hand_load.is_known) {
+    return options_.supposed.hand_load;
+  }
+  const HandLoad& told = character->second.told_hand_load;
+  HandLoad load = told;
+  for (double& kg : load.mass_kg) kg *= options_.supposed.hand_load_factor;
+  load.both_kg *= options_.supposed.hand_load_factor;
+  return loads::FindDefect(load).empty() ? load : told;
+}
+
+// Another node may be wrong, or not be one of ours: what was known stays.
+void SceneBuilder::ReplaceImpossible(const Character& before, Character& character) {
   const auto warn = [&](const std::string& defect) {
     constexpr std::size_t kMostSaid = 16;
     if (impossible_once_.size() >= kMostSaid || !impossible_once_.insert(defect).second) return;
@@ -118,19 +133,19 @@ void SceneBuilder::ForgetImpossible(Character& character) {
   };
   if (const std::string defect = FindDefect(character.told); !defect.empty()) {
     warn(defect);
-    character.told = {};
+    character.told = before.told;
   }
   if (const std::string defect = loads::FindDefect(character.told_hand_load); !defect.empty()) {
     warn(defect);
-    character.told_hand_load = {};
+    character.told_hand_load = before.told_hand_load;
   }
 }
 
 // A description alone makes no person: a sender without poses costs nothing.
 void SceneBuilder::OnCharacter(const Character& character) {
   Character& known = characters_[character.id];
-  known = character;
-  ForgetImpossible(known);
+  const Character before = std::exchange(known, character);
+  ReplaceImpossible(before, known);
   const bool is_of_objects = !character.skeleton && !character.scaled_segments.empty();
   if (is_of_objects) return;
   const auto person = people_.find(character.id);
@@ -214,7 +229,7 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   static const PersonInputs kNoInputs;
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
-  if (!settings.hands.is_known) settings.hands = characters_[sample.character].told_hand_load;
+  if (!settings.hands.is_known) settings.hands = ToldHandLoadOf(sample.character);
   if (given.hand_load) settings.hands = *given.hand_load;
   settings.strength.sex = StatedOf(sample.character).sex.value_or(settings.strength.sex);
   const bool has_forces = recorded_forces_ && recorded_forces_->AreOf(sample);

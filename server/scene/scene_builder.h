@@ -30,11 +30,18 @@
 
 namespace kinescope::app {
 
+/// To see what depends on it: of people about whom the node of their suit was told something.
+struct Supposed {
+  double mass_factor = 1, hand_load_factor = 1;  // of what was told
+  HandLoad hand_load;                            // where nothing was told
+};
+
 struct SceneOptions : ModelSettings {
   loads::LoadSettings loads;      // with the same sex as `body`
   double stale_secs = 0.5;        // time without samples after which the stream is stale, s
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
-  GraphView bag;                  // what SceneReader shows of a bag
+  Supposed supposed;
+  GraphView bag;  // what SceneReader shows of a bag
   /// Of SceneState::camera_base, unless OnSurroundings() or SetCameraBase() place it: a link of a
   /// person, "skeleton_pelvis".
   CameraFrames camera_frame;
@@ -133,7 +140,8 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
 
   PersonTracker& TrackerOf(int id);
   PersonChange StatedOf(int id) const;
-  void ForgetImpossible(Character& character);
+  HandLoad ToldHandLoadOf(int id) const;
+  void ReplaceImpossible(const Character& before, Character& character);
   bool IsPlausible(const BodySample& sample);
   void TakeTime(const BodySample& sample);
   bool IsWithin(std::int64_t nanos, std::int64_t moment) const;

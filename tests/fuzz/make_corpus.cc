@@ -550,6 +550,17 @@ void WriteInteractiveMarkers(const fs::path& folder) {
   Write(folder / "interactive_update", update.bytes());
 }
 
+// Of two people, one with something in a hand.
+void WriteToldPeople(const fs::path& folder) {
+  RosBytes told('\42');
+  told.Count(2);
+  told.Text("anna_pelvis").Text("/anna/").Reals<double>({70.0}).Byte(2).Byte(1);
+  told.Reals<double>({0, 2.5, 0}).Count(0).Count(3).Reals<double>({0, 0.01, -0.2});
+  told.Text("ben_pelvis").Text("/ben/").Reals<double>({std::nan("")}).Byte(0).Byte(0);
+  told.Reals<double>({0, 0, 0}).Count(0).Count(0);
+  Write(folder / "told_people", told.bytes());
+}
+
 void WriteMarkers(const fs::path& folder) {
   constexpr std::uint32_t kMarkerTypes = 12;
   RosBytes all('\1');
@@ -699,6 +710,7 @@ int main(int argc, char** argv) {
   WriteRigs(folder / "rig");
   WriteMarkers(folder / "marker");
   WriteInteractiveMarkers(folder / "marker");
+  WriteToldPeople(folder / "marker");
   WriteLoads(folder / "loads");
   WriteOptions(folder / "options");
   WritePoses(folder / "pose");

@@ -1,7 +1,7 @@
 // Any bytes as messages of the topics that Kinescope subscribes to: markers (first byte 0 or 1),
-// transforms, link states, joint states, joint loads, and those that are shown as markers. They are
-// rejected, or have no more in them
-// than their bytes; markers that are accepted can be rendered.
+// transforms, link states, joint states, joint loads, what was told of people, and those that are
+// shown as markers. They are rejected, or have no more in them than their bytes; markers that are
+// accepted can be rendered.
 #include <kinescope/JointLoadArray.h>
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
@@ -26,6 +26,7 @@
 #include "server/ros/marker_input.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/shown_messages.h"
+#include "server/ros/source/told_people.h"
 #include "server/ros/topic_markers.h"
 
 namespace {
@@ -215,12 +216,28 @@ void CheckImage(const std::vector<std::uint8_t>& bytes) {
   KINESCOPE_CHECK(!pixels || (pixels->width <= 40 && pixels->height <= 30));
 }
 
+// Told of someone who is there.
+void CheckTold(const std::vector<std::uint8_t>& bytes) {
+  struct : SampleSink {
+    void OnCharacter(const Character&) override { ++characters; }
+    void OnSample(const BodySample&) override { ++samples; }
+    int characters = 0, samples = 0;
+  } sink;
+  ToldPeople people([](int) { return ToldPeople::Marks{"anna_pelvis", "/anna/"}; });
+  people.SetSink(&sink);
+  people.OnCharacter({});
+  static_cast<void>(people.Take(bytes, 1));
+  people.OnSample({});
+  people.OnSample({});
+  KINESCOPE_CHECK(sink.samples == 2 && sink.characters >= 1 && sink.characters <= 2);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::vector<std::uint8_t> bytes(data + 1, data + size);
-  switch (data[0] % 34) {
+  switch (data[0] % 35) {
     case 0: {
       visualization_msgs::Marker marker;
       if (Read(bytes, marker)) CheckMarkers(std::vector<visualization_msgs::Marker>{marker});
@@ -262,6 +279,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 30: CheckDepths<sensor_msgs::Image>(bytes); break;
     case 31: CheckDepths<sensor_msgs::CameraInfo>(bytes); break;
     case 32: CheckCalibration(bytes); break;
+    case 34: CheckTold(bytes); break;
     default: CheckMapUpdate(bytes); break;
   }
   return 0;

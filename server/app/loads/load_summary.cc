@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -176,6 +177,34 @@ std::string TitleOf(const LoadTrial& trial) {
                              : fmt::format("{} (person {})", person.name, person.character);
 }
 
+std::string ToldText(const LoadTrial& trial) {
+  constexpr std::size_t kMostNamed = 8;
+  const auto& told = trial.told();
+  if (told.size() < 2) return "";
+  std::string text = "Body mass and hand load changed during the recording: ";
+  for (std::size_t i = 0; i < told.size() && i < kMostNamed; ++i) {
+    const urdf::BodyDescription& body = told[i].body;
+    HandLoad hands;
+    hands.mass_kg = told[i].hands.alone_kg;
+    hands.both_kg = told[i].hands.both_kg;
+    hands.is_known = told[i].hands.is_known;
+    text += fmt::format("{}from {:.2f} s {:g} kg, {}, holding {}", i == 0 ? "" : "; ",
+                        std::max(0.0, trial.SecsOf(told[i].stamp_nanos)), body.mass_kg,
+                        Name(body.sex), HandsText(hands));
+  }
+  return text + (told.size() > kMostNamed ? "; and more." : ".");
+}
+
+HandLoad HandsOf(const LoadTrial& trial) {
+  const StatedHandLoad& stated = trial.newest().forces.stated_hand_load;
+  HandLoad hands;
+  hands.is_known = stated.is_known;
+  hands.mass_kg = stated.alone_kg;
+  hands.both_kg = stated.both_kg;
+  hands.com_in_hand = stated.com_in_hand;
+  return hands;
+}
+
 std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const PersonModel& model = *trial.newest().model;
   const urdf::BodyDescription& body = model.description;
@@ -190,9 +219,10 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   }
   facts.push_back({"body table", urdf::Name(body.table), false});
   const auto [right_secs, left_secs] = trial.measured_hand_secs();
-  const bool is_only_measured = !settings.hands.is_known && right_secs + left_secs > 0;
-  facts.push_back({"hand load", is_only_measured ? "as measured" : HandsText(settings.hands),
-                   !settings.hands.is_known && !is_only_measured});
+  const HandLoad hands = HandsOf(trial);
+  const bool is_only_measured = !hands.is_known && right_secs + left_secs > 0;
+  facts.push_back({"hand load", is_only_measured ? "as measured" : HandsText(hands),
+                   !hands.is_known && !is_only_measured});
   if (context.scene.wrenches) {
     facts.push_back({"measured", MeasuredText(trial, context.scene.wrenches->path), false});
   }
@@ -213,6 +243,7 @@ std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& con
   std::vector<std::string> notes;
   const std::string changes = ChangesText(context.marks, trial.newest().name, context.people);
   if (!changes.empty()) notes.push_back(changes);
+  if (std::string told = ToldText(trial); !told.empty()) notes.push_back(std::move(told));
   NoteAssumed(FactsOf(trial, context), notes);
   NoteTimes("Static (without accelerations)", trial.why_static(), trial.secs(), notes);
   if (trial.limited_secs() > 0) {

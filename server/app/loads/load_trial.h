@@ -67,6 +67,15 @@ class LoadTrial {
 
   double SecsOf(std::int64_t stamp_nanos) const;  // s since begin_nanos
 
+  /// What is known of the person beside the motion, from a moment on.
+  struct Told {
+    std::int64_t stamp_nanos = 0;
+    urdf::BodyDescription body;
+    StatedHandLoad hands;
+  };
+  /// At the beginning, and after each change; no more than kMostTold.
+  const std::vector<Told>& told() const { return told_; }
+
   const PersonState& newest() const;  // @pre Add was called
   double floor_z() const;             // of the newest state, world, m. @pre Add was called
   std::uint64_t samples() const { return samples_; }
@@ -104,7 +113,10 @@ class LoadTrial {
   const std::array<double, 2>& compression_secs() const { return compression_secs_; }
 
  private:
+  static constexpr std::size_t kMostTold = 100;
+
   void CountTime(const PersonState& last, double secs);
+  void KeepTold(const PersonState& person);
   void KeepCurve(const PersonState& person);
   void KeepWorst(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
   void KeepPeaks(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
@@ -126,6 +138,7 @@ class LoadTrial {
   WorstMoment most_compressed_;
   std::array<WorstMoment, urdf::kScoredJointCount> peaks_;  // of each joint; no scene: unknown
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
+  std::vector<Told> told_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
   Peak com_minus_mvn_, compression_, shear_;
   double com_disagrees_secs_ = 0, limited_secs_ = 0, measured_ground_secs_ = 0;

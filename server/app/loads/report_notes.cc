@@ -146,7 +146,7 @@ std::vector<Fact> HeadFactsOf(const LoadTrial& trial, const TrialContext& contex
     }
     facts.push_back(std::move(fact));
   }
-  if (HoldsAtGrip(settings.hands)) facts.push_back({"held", "at the grip", true});
+  if (HoldsAtGrip(HandsOf(trial))) facts.push_back({"held", "at the grip", true});
   facts.push_back(StrengthFact(settings.strength, trial.newest().model->description.sex));
   facts.push_back({"floor", FloorText(trial, context.scene.floor_z.has_value()), false});
   facts.push_back({"ratio",
@@ -197,6 +197,7 @@ std::vector<std::string> TrustNotesOf(const LoadTrial& trial, const TrialContext
   std::vector<std::string> notes;
   const std::string changes = ChangesText(context.marks, trial.newest().name, context.people);
   if (!changes.empty()) notes.push_back(changes);
+  if (std::string told = ToldText(trial); !told.empty()) notes.push_back(std::move(told));
   const double all = trial.secs();
   NoteUnknownJoints(trial, notes);
   NoteReasons("Without accelerations", trial.why_static(), all, notes);

@@ -10,6 +10,7 @@
 #include "core/system/clocks.h"
 #include "server/loads/exposure.h"
 #include "server/loads/joint_score.h"
+#include "server/source/open_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -21,10 +22,27 @@ constexpr double kSupposedHandKg = 5;  // where the hand load is unknown
 void VaryMass(const SceneOptions& scene, std::vector<Variation>& variations) {
   for (const double sign : {-1.0, 1.0}) {
     Variation varied{"", scene};
-    varied.scene.body.mass_kg *= 1 + sign * kVariedShare;
+    varied.of = Variation::Of::kMass;
+    varied.factor = 1 + sign * kVariedShare;
+    varied.scene.body.mass_kg *= varied.factor;
+    varied.scene.supposed.mass_factor = varied.factor;
     if (!urdf::FindDefect(varied.scene.body).empty()) continue;
     varied.label = fmt::format("mass {:.4g} kg ({}{:.0f} %)", varied.scene.body.mass_kg,
                                sign < 0 ? "−" : "+", 100 * kVariedShare);
+    variations.push_back(std::move(varied));
+  }
+}
+
+// What it is, the recording says.
+void VaryToldHands(const SceneOptions& scene, std::vector<Variation>& variations) {
+  Variation supposed{fmt::format("hand load {:g} kg, both", kSupposedHandKg), scene,
+                     Variation::Of::kUnknownHandLoad};
+  supposed.scene.supposed.hand_load.is_known = true;
+  supposed.scene.supposed.hand_load.both_kg = kSupposedHandKg;
+  variations.push_back(std::move(supposed));
+  for (const double sign : {-1.0, 1.0}) {
+    Variation varied{"", scene, Variation::Of::kHandLoad, 1 + sign * kVariedShare};
+    varied.scene.supposed.hand_load_factor = varied.factor;
     variations.push_back(std::move(varied));
   }
 }
@@ -54,10 +72,14 @@ void VaryHands(const SceneOptions& scene, std::vector<Variation>& variations) {
 
 }  // namespace
 
-std::vector<Variation> VariationsOf(const SceneOptions& scene) {
+std::vector<Variation> VariationsOf(const SceneOptions& scene, bool may_be_told) {
   std::vector<Variation> variations;
   VaryMass(scene, variations);
-  VaryHands(scene, variations);
+  if (may_be_told && !scene.loads.hands.is_known) {
+    VaryToldHands(scene, variations);
+  } else {
+    VaryHands(scene, variations);
+  }
   const auto vary = [&](std::string label) -> SceneOptions& {
     return variations.emplace_back(Variation{std::move(label), scene}).scene;
   };
@@ -81,6 +103,9 @@ std::vector<Variation> VariationsOf(const SceneOptions& scene) {
 
 void LoadTally::Add(const PersonState& person) {
   ++row_.samples;
+  has_mass_ = !person.model->description.mass_is_assumed;
+  mass_kg_ = person.model->description.mass_kg;
+  hands_ = person.forces.stated_hand_load;
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
     const JointLoad& load = person.loads[i];
     if (load.band == LoadClass::kUnknown) continue;
@@ -110,11 +135,15 @@ SensitivityRow LoadTally::Row(std::string label) const {
 
 Sensitivity::Sensitivity(const SceneOptions& scene, std::optional<double> length_secs,
                          SceneReader& reader)
-    : length_secs_(length_secs) {
-  const std::vector<Variation> variations = VariationsOf(scene);
+    : mass_is_option_(!scene.body.mass_is_assumed),
+      hand_load_is_option_(scene.loads.hands.is_known),
+      length_secs_(length_secs) {
+  const std::vector<Variation> variations = VariationsOf(scene, IsBag(reader.url()));
   runs_.resize(variations.size());
   for (std::size_t i = 0; i < runs_.size(); ++i) {
+    runs_[i].of = variations[i].of;
     runs_[i].label = variations[i].label;
+    runs_[i].factor = variations[i].factor;
     reader.Also(variations[i].scene, [this, i](const std::shared_ptr<const SceneState>& state) {
       Add(*state, runs_[i]);
     });
@@ -131,6 +160,25 @@ void Sensitivity::Add(const SceneState& scene, Run& run) const {
   }
 }
 
+std::string Sensitivity::LabelOf(const Run& run, const LoadTally& as_computed,
+                                 const LoadTally& varied) const {
+  const auto with_share = [&](const char* what, double kg) {
+    return fmt::format("{} {:.4g} kg ({}{:.0f} %)", what, kg, run.factor < 1 ? "−" : "+",
+                       100 * std::abs(run.factor - 1));
+  };
+  switch (run.of) {
+    case Variation::Of::kMass:
+      if (mass_is_option_ || !as_computed.has_mass()) return run.label;
+      return with_share("mass", varied.mass_kg());
+    case Variation::Of::kHandLoad:
+      if (hand_load_is_option_) return run.label;
+      return as_computed.hand_load_kg() > 0 ? with_share("hand load", varied.hand_load_kg()) : "";
+    case Variation::Of::kUnknownHandLoad: return as_computed.has_hand_load() ? "" : run.label;
+    case Variation::Of::kOther: break;
+  }
+  return run.label;
+}
+
 std::vector<SensitivityRow> Sensitivity::RowsOf(int character) const {
   std::vector<SensitivityRow> rows;
   const auto computed = as_computed_.find(character);
@@ -138,7 +186,9 @@ std::vector<SensitivityRow> Sensitivity::RowsOf(int character) const {
   rows.push_back(computed->second.Row("as computed"));
   for (const Run& run : runs_) {
     const auto person = run.people.find(character);
-    if (person != run.people.end()) rows.push_back(person->second.Row(run.label));
+    if (person == run.people.end()) continue;
+    const std::string label = LabelOf(run, computed->second, person->second);
+    if (!label.empty()) rows.push_back(person->second.Row(label));
   }
   return rows;
 }

@@ -21,14 +21,19 @@ namespace kinescope::app {
 
 /// One assumption changed, in words, and the options with it.
 struct Variation {
+  enum class Of { kOther, kMass, kHandLoad, kUnknownHandLoad };
+
   std::string label;  // "mass 67.5 kg (−10 %)"
   SceneOptions scene;
+  Of of = Of::kOther;
+  double factor = 1;  // of the mass, or of the hand load
 };
 
 /// Body mass −10 % and +10 %; the hand loads lower and higher by 10 %, at least by 1 kg, or 5 kg in
 /// both hands if the hand load is unknown; another mass table; with or without accelerations;
-/// another percentile of strength. In the order of the report.
-std::vector<Variation> VariationsOf(const SceneOptions& scene);
+/// another percentile of strength. In the order of the report. `may_be_told`: where an option says
+/// nothing, the recording may say of each person what the node of the suit was told.
+std::vector<Variation> VariationsOf(const SceneOptions& scene, bool may_be_told = false);
 
 /// What one run says about one person.
 struct SensitivityRow {
@@ -49,8 +54,17 @@ class LoadTally {
   void Add(const PersonState& person);
   SensitivityRow Row(std::string label) const;
 
+  /// Of the newest sample: whether they are known, and by an option or by what was told.
+  bool has_mass() const { return has_mass_; }
+  bool has_hand_load() const { return hands_.is_known; }
+  double mass_kg() const { return mass_kg_; }
+  double hand_load_kg() const { return hands_.alone_kg[0] + hands_.alone_kg[1] + hands_.both_kg; }
+
  private:
   SensitivityRow row_;
+  bool has_mass_ = false;
+  double mass_kg_ = 0;
+  StatedHandLoad hands_;
   std::vector<float> low_back_ratios_;
 };
 
@@ -70,13 +84,18 @@ class Sensitivity {
 
  private:
   struct Run {
+    Variation::Of of = Variation::Of::kOther;
     std::string label;
+    double factor = 1;
     std::optional<std::int64_t> begin_nanos;
     NewSamples fresh;
     std::map<int, LoadTally> people;  // by character
   };
   void Add(const SceneState& scene, Run& run) const;
+  /// That of `run` for a person; "": it changes nothing of this one.
+  std::string LabelOf(const Run& run, const LoadTally& as_computed, const LoadTally& varied) const;
 
+  const bool mass_is_option_, hand_load_is_option_;
   std::optional<double> length_secs_;
   std::vector<Run> runs_;
   std::map<int, LoadTally> as_computed_;  // by character

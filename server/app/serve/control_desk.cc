@@ -67,6 +67,10 @@ ControlStatus ControlDesk::Look() {
   status.stated = stated_;
   status.held = held_.all();
   status.first_held = {parts_.first_hand_load, start_micros_, "option"};
+  for (const auto& [name, value] : parts_.loads_options) {
+    status.mass_is_option = status.mass_is_option || name == "mass";
+    status.sex_is_option = status.sex_is_option || name == "sex";
+  }
   status.class_limits = ClassLimitsNow();
   status.class_limits_are_set = class_limits_.has_value();
   const bool is_recording = status.recording.state != recording::RawRecorder::State::kOff;

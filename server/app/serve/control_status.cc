@@ -75,12 +75,26 @@ json HandsToJson(const HeldLoad& held) {
           {"right_kg", held.load.mass_kg[urdf::kRight]},
           {"left_kg", held.load.mass_kg[urdf::kLeft]},
           {"both_kg", held.load.both_kg},
-          {"since_micros", held.since_micros},
+          {"since_micros", held.since_micros == 0 ? json() : json(held.since_micros)},
           {"by", held.by}};
 }
 
-const char* OriginOf(bool is_set, bool is_assumed) {
-  return is_set ? "operator" : is_assumed ? "assumed" : "option";
+// What is known without an option was told to the node of the suit.
+const char* OriginOf(bool is_set, bool is_assumed, bool is_option) {
+  return is_set ? "operator" : is_assumed ? "assumed" : is_option ? "option" : "bridge";
+}
+
+// Nobody here has said so.
+HeldLoad ToldHands(const PersonState& person, const HeldLoad& first) {
+  const StatedHandLoad& stated = person.forces.stated_hand_load;
+  if (first.load.is_known || !stated.is_known) return first;
+  HeldLoad told = first;
+  told.load.is_known = true;
+  told.load.mass_kg = stated.alone_kg;
+  told.load.both_kg = stated.both_kg;
+  told.since_micros = 0;
+  told.by = "bridge";
+  return told;
 }
 
 json PersonToJson(const PersonState& person, const ControlStatus& status) {
@@ -96,17 +110,19 @@ json PersonToJson(const PersonState& person, const ControlStatus& status) {
           {"name", {{"value", person.name}, {"from", stated.name ? "operator" : "stream"}}},
           {"mass_kg",
            {{"value", body.mass_kg},
-            {"from", OriginOf(stated.mass_kg.has_value(), body.mass_is_assumed)}}},
+            {"from",
+             OriginOf(stated.mass_kg.has_value(), body.mass_is_assumed, status.mass_is_option)}}},
           {"sex",
            {{"value", Name(body.sex)},
-            {"from", OriginOf(stated.sex.has_value(), body.sex_is_assumed)}}},
+            {"from", OriginOf(stated.sex.has_value(), body.sex_is_assumed, status.sex_is_option)}}},
           {"height_m",
            {{"value", std::round(1000 * model.human.skeleton.height) / 1000},
             {"from", model.lengths_are_measured ? lengths
                      : stated.height_m          ? "operator"
                                                 : "option"},
             {"stated", stated.height_m ? json(*stated.height_m) : json()}}},
-          {"hands", HandsToJson(held != status.held.end() ? held->second : status.first_held)}};
+          {"hands", HandsToJson(held != status.held.end() ? held->second
+                                                          : ToldHands(person, status.first_held))}};
 }
 
 }  // namespace

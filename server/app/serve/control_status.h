@@ -24,7 +24,7 @@ namespace kinescope::app {
 struct HeldLoad {
   HandLoad load;
   std::int64_t since_micros = 0;  // wall clock
-  std::string by;                 // "operator", "ROS", "option"
+  std::string by;                 // "operator", "ROS", "option", "bridge"
 };
 
 struct ControlStatus {
@@ -33,10 +33,11 @@ struct ControlStatus {
   std::optional<std::uintmax_t> free_bytes;  // of the disk, without what is kept for marks
   std::optional<recording::Trial> trial;     // that runs
   std::vector<Workshop::Job> jobs;
-  std::shared_ptr<const SceneState> state;  // null: none yet
-  std::map<int, PersonChange> stated;       // by character
-  std::map<int, HeldLoad> held;             // by character
-  HeldLoad first_held;                      // of the others
+  std::shared_ptr<const SceneState> state;             // null: none yet
+  std::map<int, PersonChange> stated;                  // by character
+  std::map<int, HeldLoad> held;                        // by character
+  HeldLoad first_held;                                 // of the others
+  bool mass_is_option = false, sex_is_option = false;  // of this server
   std::array<double, 2> class_limits = kDefaultClassLimits;
   bool class_limits_are_set = false;  // by an operator
   std::uint64_t files_revision = 0;

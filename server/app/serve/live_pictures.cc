@@ -37,13 +37,13 @@ LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory 
       pictures_(pictures),
       camera_(own_ ? http::kOwnCamera : settings.camera.name()),
       live_({"picture", settings.width, settings.height, settings.rate_hz, settings.people,
-             settings.trails},
+             settings.background, settings.trails},
             settings.camera, make_renderer, first,
             [this](const render::Image& image, const SceneState& state, const render::Camera&) {
               Publish(image, state);
             }),
       snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz, settings.people,
-                  settings.trails},
+                  settings.background, settings.trails},
                  settings.camera, std::move(make_renderer), first, nullptr) {
   // The first viewer receives a picture at once.
   Publish(live_.Request(LiveView(settings.width, settings.height)).get(), *first);

@@ -33,6 +33,7 @@ struct LivePictureSettings {
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
   PeopleLook people = {};
+  std::optional<Rgb> background = {};  // instead of that of the viewer's theme
   TrailSettings trails = {};
   const history::History* history = nullptr;  // of the trails of former states; may be null
 };

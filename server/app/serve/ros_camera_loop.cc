@@ -9,7 +9,7 @@ namespace kinescope::app {
 RosCameraLoop::RosCameraLoop(const RosCameraSettings& settings, RendererFactory make_renderer,
                              std::shared_ptr<const SceneState> first, Send send)
     : loop_({"view", settings.width, settings.height, settings.rate_hz, settings.people,
-             settings.trails},
+             settings.background, settings.trails},
             settings.camera, std::move(make_renderer), std::move(first),
             [send = std::move(send)](const render::Image& image, const SceneState& state,
                                      const render::Camera& camera) {

@@ -25,6 +25,7 @@ struct RosCameraSettings {
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
   PeopleLook people = {};
+  std::optional<Rgb> background = {};  // none: that of the light theme
   TrailSettings trails = {};
 };
 

@@ -49,6 +49,9 @@ options::Found ValueOf(const ros_bridge::NodeParameter& parameter, const options
   throw UsageError("~" + option.name + ": is a map of names and values; expected one value");
 }
 
+// This node writes it (server/ros/description_parameters.h), and it stays when the node has ended.
+constexpr char kOwnParameter[] = "human_description";
+
 // Private parameters of this node: ~name.
 void ReadParameters(const ServeOptions& options, const std::string& command,
                     options::OptionList& list) {
@@ -56,7 +59,7 @@ void ReadParameters(const ServeOptions& options, const std::string& command,
   const auto& parameters = ros_bridge::PrivateParameters();
   for (const auto& [name, parameter] : parameters) {
     const bool may_be_namespace = parameter.kind == ros_bridge::NodeParameter::Kind::kOther;
-    if (may_be_namespace || list.Find(name) != nullptr) continue;
+    if (may_be_namespace || list.Find(name) != nullptr || name == kOwnParameter) continue;
     spdlog::warn("~{}: kinescope {} has no such parameter; it is not used{}", name, command,
                  SuggestionFor(name, list.Names()));
   }

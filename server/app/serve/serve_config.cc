@@ -118,6 +118,11 @@ ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
   clips.view.style = options.style;
   clips.view.loads = options.loads_shown;
   clips.view.body_opacity = options.body_opacity;
+  clips.view.background = options.background;
+  if (const auto& color = options.background->color) {
+    const bool is_dark = render::ThemeOn(*color) == render::Theme::kDark;
+    clips.view.theme.Parse(is_dark ? "dark" : "light");
+  }
   clips.view.trails = options.trails;
   clips.view.robot = options.robot.WithoutMoving();
   clips.view.ghost = options.ghost;
@@ -151,6 +156,13 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.rate_hz = *options.picture_rate_hz;
   pictures.people =
       LoadPeopleLook(options.figure, options.style, options.loads_shown, options.body_opacity);
+  if (options.background->is_transparent) {
+    throw UsageError(
+        "--background=transparent: the live picture is a JPEG, which is never transparent; "
+        "expected "
+        "theme, white, black or #RRGGBB");
+  }
+  pictures.background = options.background->color;
   pictures.trails = options.trails.Settings();
   return pictures;
 }
@@ -173,6 +185,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.rate_hz = *options.ros_view_rate_hz;
   settings.people =
       LoadPeopleLook(options.figure, options.style, options.loads_shown, options.body_opacity);
+  settings.background = options.background->color;
   settings.trails = options.trails.Settings();
   return settings;
 }

@@ -179,6 +179,8 @@ void ServeOptions::List(options::OptionList& option) {
                      [this] { return bool(stop_at) && *ros != ros_bridge::RosMode::kOff; });
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown, body_opacity);
+  option("background", background,
+         "background of the pictures that the server draws; theme: that of each viewer's page");
   trails.List(option);
   ListGhost(option, ghost, ghost_opacity);
   option("robot", robot, kRobotHelp);
@@ -222,8 +224,8 @@ void ServeOptions::List(options::OptionList& option) {
                        [this] { return !*pictures && AreAllNamed(*camera); });
   }
   for (const char* name :
-       {"projection", "orbit", "follow", "fit", "picture_size", "picture_rate_hz", "backend",
-        "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+       {"background", "projection", "orbit", "follow", "fit", "picture_size", "picture_rate_hz",
+        "backend", "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
     option.HasNoEffect(name, "with --pictures=off", [this] { return !*pictures; });
   }
 }

@@ -62,6 +62,7 @@ struct ServeOptions {
   StyleValue style;
   LoadsShownValue loads_shown;  // --loads
   options::Number body_opacity;
+  BackgroundValue background;
   TrailOptions trails;
   GhostValue ghost;
   options::Number ghost_opacity;

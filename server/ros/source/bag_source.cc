@@ -265,6 +265,7 @@ void BagSource::ReadNames() {
   std::map<std::string, Appearances> appearances, of_link_states;
   std::int64_t end = 0;
   std::set<const BagConnection*> told_first;
+  constexpr std::int64_t kJustNanos = 200 * kNanosPerMilli;
   bool has_ended = true;
   BagMessage message;
   while (ahead.Next(message)) {
@@ -276,8 +277,12 @@ void BagSource::ReadNames() {
       break;
     }
     if (IsOfPeople(*message.connection)) {
-      // A recorder may have the first pose before what is latched.
-      if (told_first.insert(message.connection).second) TakePeople(message);
+      // A recorder may have poses before what is latched, or comes again: not much later.
+      const bool is_of_beginning = now - (end - kNamesNanos) < kTellEveryNanos + kJustNanos;
+      if (told_first.insert(message.connection).second && is_of_beginning) {
+        // It is counted when its turn comes.
+        static_cast<void>(told_people_.Take(message.bytes, now));
+      }
       continue;
     }
     if (IsLinkStates(*message.connection)) {
@@ -476,7 +481,10 @@ Source::State BagSource::End() {
   has_ended_ = true;
   people_.End(counters_);
   WarnOfUnused();
-  for (const std::string& text : recorded_loads_.Texts(told_people_)) {
+  // Else they have what was told.
+  const std::vector<std::string> texts =
+      told_people_.is_empty() ? recorded_loads_.Texts() : std::vector<std::string>();
+  for (const std::string& text : texts) {
     spdlog::info("bag '{}': {}; those of its motion are computed with --mass and --hand_load",
                  name_, text);
   }
@@ -606,7 +614,8 @@ ToldPeople::Marks BagSource::MarksOf(int character) const {
 
 void BagSource::TakePeople(const BagMessage& message) {
   const bool is_whole = message.bytes.size() == message.size;
-  if (!is_whole || !told_people_.Take(message.bytes)) ++counters_.rejected[kUnreadablePeople];
+  if (!is_whole || !told_people_.Take(message.bytes, message.recorded_nanos))
+    ++counters_.rejected[kUnreadablePeople];
 }
 
 SourceCounters BagSource::counters() const {

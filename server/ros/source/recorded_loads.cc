@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "server/ros/names.h"
 #include "server/ros/raw_message.h"
 #include "urdf/segments.h"
 
@@ -43,10 +42,9 @@ void RecordedLoads::Take(const BagMessage& message) {
   }
 }
 
-std::vector<std::string> RecordedLoads::Texts(const ToldPeople& told) const {
+std::vector<std::string> RecordedLoads::Texts() const {
   std::vector<std::string> texts;
   for (const auto& [topic, seen] : by_topic_) {
-    if (told.Knows(NamespaceOf(WithSlash(topic)))) continue;
     std::vector<std::string> parts;
     if (seen.mass_kg) {
       parts.push_back("a body mass of " + MassText(seen.mass_kg->first, seen.mass_kg->second));

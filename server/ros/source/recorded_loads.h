@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "server/ros/source/bag_reader.h"
-#include "server/ros/source/told_people.h"
 
 namespace kinescope::ros_bridge {
 
@@ -26,8 +25,7 @@ class RecordedLoads {
   /// Of each topic that had a mass that was given, or something in the hands: "the joint loads of
   /// /right/kinescope/joint_loads were computed with a body mass of 80 to 95 kg and up to 5 kg in
   /// the right hand".
-  /// Without people of whom `told` knows.
-  std::vector<std::string> Texts(const ToldPeople& told) const;
+  std::vector<std::string> Texts() const;
 
  private:
   struct Seen {

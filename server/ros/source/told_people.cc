@@ -1,31 +1,44 @@
 #include "server/ros/source/told_people.h"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/system/utf8.h"
 #include "server/ros/person_messages.h"
 #include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
-bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes) {
+bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos) {
   if (!ReadBounded(bytes.data(), bytes.size(), message_)) return false;
   for (const kinescope_ros::Person& person : message_.people) {
     auto known = std::find_if(told_.begin(), told_.end(), [&](const Told& told) {
       return told.message.pelvis_frame == person.pelvis_frame &&
              told.message.topics == person.topics;
     });
+    if (known != told_.end()) known->heard_nanos = now_nanos;
     if (known != told_.end() && AreEqual(known->message, person)) continue;
     if (known == told_.end()) {
       if (told_.size() >= kMostPeople) continue;
       known = told_.insert(told_.end(), Told());
     }
-    *known = {person, ++revisions_};
+    *known = {person, ++revisions_, now_nanos};
   }
   return true;
 }
 
-bool ToldPeople::Knows(const std::string& topics) const {
-  return std::any_of(told_.begin(), told_.end(),
-                     [&](const Told& told) { return told.message.topics == topics; });
+void ToldPeople::Forget(std::int64_t now_nanos) {
+  constexpr std::int64_t kPauseNanos = kNanosPerSecond;
+  const std::int64_t paused = now_nanos - std::exchange(looked_nanos_, now_nanos);
+  for (auto told = told_.begin(); told != told_.end();) {
+    if (paused > kPauseNanos) told->heard_nanos = now_nanos;
+    const bool is_gone = now_nanos - told->heard_nanos > kForgetAfterNanos;
+    if (is_gone) ++revisions_;
+    told = is_gone ? told_.erase(told) : std::next(told);
+  }
 }
 
 // Of two nodes that tell of the same frame, the one that told something last.
@@ -42,10 +55,37 @@ const ToldPeople::Told* ToldPeople::Find(int character) const {
   return found;
 }
 
+void ToldPeople::Say(const std::string& name, const kinescope_ros::Person* told) {
+  constexpr int kMostLines = 100;
+  if (++said_ > kMostLines) return;
+  std::vector<std::string> parts;
+  if (told != nullptr && !std::isnan(told->body_mass)) {
+    parts.push_back(fmt::format("body mass {:.4g} kg", told->body_mass));
+  }
+  if (told != nullptr && told->sex != kinescope_ros::Person::SEX_NOT_TOLD) {
+    parts.emplace_back(Name(*ToldOf(*told).sex));
+  }
+  if (told != nullptr && told->hand_load_known) {
+    const auto& held = told->hand_load;
+    const double all_kg = held.right_kg + held.left_kg + held.both_kg;
+    parts.push_back(all_kg > 0 ? fmt::format("{:.4g} kg in the hands", all_kg) : "empty hands");
+  }
+  spdlog::info("'{}', as the node of the suit says: {}", PrintableLine(name),
+               parts.empty() ? "nothing any more" : fmt::format("{}", fmt::join(parts, ", ")));
+}
+
 void ToldPeople::Give(Person& person) {
   Character character = person.character;
-  if (const Told* const told = Find(character.id)) {
-    person.revision = told->revision;
+  const Told* const told = Find(character.id);
+  const std::uint64_t revision = told == nullptr ? 0 : told->revision;
+  const bool has_something =
+      told != nullptr && !(ToldOf(told->message).is_empty() && !told->message.hand_load_known);
+  if (revision != person.revision && (has_something || person.has_something)) {
+    Say(character.name, told == nullptr ? nullptr : &told->message);
+  }
+  person.has_something = has_something;
+  person.revision = revision;
+  if (told != nullptr) {
     character.told = ToldOf(told->message);
     // A centre of mass that is none leaves the mass at the grip.
     if (told->message.hand_load_known) {
@@ -66,7 +106,7 @@ void ToldPeople::OnSample(const BodySample& sample) {
   person.character.id = sample.character;
   if (std::exchange(person.looked, revisions_) != revisions_) {
     const Told* const told = Find(sample.character);
-    if (told != nullptr && told->revision != person.revision) Give(person);
+    if ((told == nullptr ? 0 : told->revision) != person.revision) Give(person);
   }
   sink_->OnSample(sample);
 }

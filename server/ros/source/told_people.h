@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "core/source.h"
+#include "server/ros/person_messages.h"
 
 namespace kinescope::ros_bridge {
 
 class ToldPeople : public SampleSink {
  public:
   static constexpr std::size_t kMostPeople = 64;
+  static constexpr std::int64_t kForgetAfterNanos = 5 * kTellEveryNanos;
 
   /// By what a person is known; "": not by that.
   struct Marks {
@@ -32,10 +34,13 @@ class ToldPeople : public SampleSink {
   void SetSink(SampleSink* sink) { sink_ = sink; }
 
   /// Takes the bytes of a kinescope/PersonArray. False: they are none.
-  [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes);
+  [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos);
 
-  /// Whether something was told of the person whose topics begin with `topics`.
-  bool Knows(const std::string& topics) const;
+  /// Of a graph, many times a second while samples come: what a node told that has not been heard
+  /// for kForgetAfterNanos is forgotten. A time in which no samples come does not count.
+  void Forget(std::int64_t now_nanos);
+
+  bool is_empty() const { return told_.empty(); }
 
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
@@ -44,22 +49,27 @@ class ToldPeople : public SampleSink {
   struct Told {
     kinescope_ros::Person message;
     std::uint64_t revision = 0;  // increases with every change
+    std::int64_t heard_nanos = 0;
   };
   struct Person {
     Character character;         // as the source described it
     std::uint64_t revision = 0;  // of what was passed on; 0: nothing was
     std::uint64_t looked = 0;    // revisions_ when that was looked for
+    bool has_something = false;  // in what was passed on
   };
 
   const Told* Find(int character) const;
   void Give(Person& person);
+  void Say(const std::string& name, const kinescope_ros::Person* told);
 
   const std::function<Marks(int character)> marks_of_;
   SampleSink* sink_ = nullptr;
   kinescope_ros::PersonArray message_;  // reused, keeps its memory
   std::vector<Told> told_;
   std::uint64_t revisions_ = 0;
-  std::map<int, Person> people_;  // by character; as many as the source has
+  std::int64_t looked_nanos_ = 0;  // by Forget()
+  int said_ = 0;                   // lines of the log
+  std::map<int, Person> people_;   // by character; as many as the source has
 };
 
 }  // namespace kinescope::ros_bridge

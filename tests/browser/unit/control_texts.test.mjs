@@ -27,6 +27,7 @@ test('what is held is said with its time and who set it; the stature with where 
   assert.match(handsText(hands), /^Held now: 5 kg right, 2\.25 kg in both hands, since \d\d:\d\d:\d\d \(ROS\)$/);
   assert.match(handsText({ ...hands, right_kg: 0, both_kg: 0 }), /^Held now: nothing, since/);
   assert.match(handsText({ ...hands, is_known: false }), /^Held now: not known/);
+  assert.match(handsText({ ...hands, since_micros: null, by: 'bridge' }), /in both hands \(as the node of the suit was told\)$/);
   const person = (height_m) => /** @type {any} */ ({ height_m });
   assert.equal(heightText(person({ value: 1.75, from: 'stream', stated: 1.8 })), 'as stated; the lengths from the stream give 1.75 m');
   assert.equal(heightText(person({ value: 1.75, from: 'poses', stated: null })), 'measured in the poses');

@@ -70,7 +70,7 @@ TEST(CameraPicture, HasGreysBetweenTheLeastAndTheLargestNumber) {
   const std::array<float, 5> metres = {2, std::numeric_limits<float>::quiet_NaN(), 1,
                                        std::numeric_limits<float>::infinity(), 1.5};
   std::memcpy(floats.data(), metres.data(), floats.size());
-  EXPECT_THAT(GreysOf(ImageOf("32FC1", 5, 1, floats)), ElementsAre(255, 0, 0, 0, 128));
+  EXPECT_THAT(GreysOf(ImageOf("32FC1", 5, 1, floats)), ElementsAre(255, 0, 0, 255, 128));
 }
 
 TEST(CameraPicture, IsShrunkOrEnlargedWithItsProportions) {

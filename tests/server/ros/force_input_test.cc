@@ -318,6 +318,37 @@ TEST(Frames, AreThoseOfTheNewRoundOfAShortBagInALoop) {
   }
 }
 
+// A simulator that is started again, where a frame is sent once in each run.
+TEST(Frames, AreThoseSentSinceTheClockWasSetBack) {
+  TfTree tf;
+  const auto send = [&](const char* frame, double secs, double x, bool is_static = false) {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& transform = message.transforms[0];
+    transform.header.frame_id = "world";
+    transform.header.stamp = ros::Time(secs);
+    transform.child_frame_id = frame;
+    transform.transform.translation.x = x;
+    transform.transform.rotation.w = 1;
+    EXPECT_TRUE(tf.Add(message, is_static).empty()) << frame << " at " << secs;
+  };
+  const auto x_of = [&](const char* frame) {
+    const auto place = tf.Find("world", frame, 0);
+    return place ? place->pose.position.x() : -1;
+  };
+  send("base", 1, 9, true);
+  send("box", 2.2, 1);
+  send("gone", 5, 1);
+  send("early", 0.05, 7);  // of the new run: its clock is heard a little later
+  tf.StartAgain(kNanosPerMilli);
+  EXPECT_EQ(x_of("box"), -1);
+  EXPECT_EQ(tf.frames().count("gone"), 0U);
+  EXPECT_EQ(x_of("base"), 9);
+  EXPECT_EQ(x_of("early"), 7);
+  send("box", 2.1, 2);
+  EXPECT_EQ(x_of("box"), 2);
+}
+
 TEST(Frames, OfASenderThatIsLateDoNotTakeTheTimeOfAnotherBack) {
   TfTree tf;
   for (int i = 0; i < 60; ++i) {

@@ -111,6 +111,21 @@ TEST(SceneBuilder, KnowsOfPeopleWhatTheNodeOfTheirSuitWasToldUnlessOptionsOrOper
   EXPECT_EQ(person(built).model->description.mass_kg, 60);
   EXPECT_EQ(person(built).forces.stated_hand_load.both_kg, 0);
 
+  SceneOptions varied;
+  varied.supposed.mass_factor = 1.1;
+  varied.supposed.hand_load_factor = 0.5;
+  varied.supposed.hand_load.is_known = true;
+  varied.supposed.hand_load.both_kg = 5;
+  Built supposed(varied);
+  supposed.builder.OnCharacter(character);
+  show(supposed, 0);
+  EXPECT_NEAR(person(supposed).model->description.mass_kg, 1.1 * 91, 1e-9);
+  EXPECT_EQ(person(supposed).forces.stated_hand_load.both_kg, 2);
+  Built nothing_told(varied);
+  show(nothing_told, 0);
+  EXPECT_TRUE(person(nothing_told).model->description.mass_is_assumed);
+  EXPECT_EQ(person(nothing_told).forces.stated_hand_load.both_kg, 5);
+
   SceneOptions options;
   options.body.mass_kg = 70;
   options.body.mass_is_assumed = false;
@@ -143,6 +158,13 @@ TEST(SceneBuilder, DoesNotUseWhatCannotBeTrueOfAPerson) {
   EXPECT_THAT(text, AllOf(HasSubstr(said + "body mass 900"),
                           HasSubstr(said + "load of -1 kg in the left hand")));
   EXPECT_EQ(text.find("900"), text.rfind("900")) << "once";
+
+  Character good;
+  good.told.mass_kg = 80;
+  built.builder.OnCharacter(good);
+  built.builder.OnCharacter(character);
+  built.builder.OnSample(SampleOf("lift", 0.1));
+  EXPECT_EQ(built.last().people[0].model->description.mass_kg, 80) << "what was known stays";
 }
 
 SourceMoment LiveMoment(double secs) {

@@ -157,10 +157,10 @@ TEST(LoadReport, MarksAssumedValuesAndNoOthers) {
       auto model = std::make_shared<PersonModel>(*copy->people[0].model);
       model->description.sex_is_assumed = model->description.mass_is_assumed = is_assumed;
       copy->people[0].model = model;
+      copy->people[0].forces.stated_hand_load = {!is_assumed, {0, 0}, 0};
       changed.push_back(copy);
     }
     TrialContext context;
-    context.scene.loads.hands.is_known = !is_assumed;
     context.scene.loads.strength.factor = is_assumed ? 1 : 1.2;
     return ReportOf(TrialOf(changed), context);
   };

@@ -35,7 +35,8 @@ std::map<std::string, std::string> FactTexts(const LoadTrial& trial, const Trial
   return texts;
 }
 
-LoadTrial TrialOfBody(const urdf::BodyDescription& body, bool lengths_are_measured = false) {
+LoadTrial TrialOfBody(const urdf::BodyDescription& body, bool lengths_are_measured = false,
+                      const StatedHandLoad& hands = {}) {
   SceneState scene = SceneWithRatio(0, 0.2);
   auto model = std::make_shared<PersonModel>();
   model->description = body;
@@ -43,6 +44,7 @@ LoadTrial TrialOfBody(const urdf::BodyDescription& body, bool lengths_are_measur
   model->human.skeleton = urdf::DefaultSkeleton(1.68);
   model->human.body = urdf::MakeBodyParameters(body, model->human.skeleton);
   scene.people[0].model = model;
+  scene.people[0].forces.stated_hand_load = hands;
   LoadTrial trial(false, 0);
   AddTo(trial, scene);
   return trial;
@@ -63,12 +65,9 @@ TEST(LoadSummary, DistinguishesGivenFromAssumedValues) {
   body.added_masses = {{urdf::kHead, 1.5, Eigen::Vector3d::Zero()},
                        {urdf::kT8, 8, Eigen::Vector3d::Zero()}};
   context.scene.height_is_assumed = false;
-  context.scene.loads.hands.is_known = true;
-  context.scene.loads.hands.mass_kg = {5, 2.5};
-  context.scene.loads.hands.both_kg = 10;
   context.scene.loads.strength.factor = 0.8;
   context.scene.loads.strength.percentile = loads::Percentile::k5;
-  const auto given = FactTexts(TrialOfBody(body), context);
+  const auto given = FactTexts(TrialOfBody(body, false, {true, {5, 2.5}, 10}), context);
   EXPECT_EQ(given.at("sex"), "female");
   EXPECT_EQ(given.at("mass"), "61.5 kg");
   EXPECT_EQ(given.at("stature"), "1.68 m");
@@ -78,6 +77,34 @@ TEST(LoadSummary, DistinguishesGivenFromAssumedValues) {
             "total moment relative to the 5th percentile of capacity x 0.8");
   EXPECT_EQ(FactTexts(TrialOfBody({}, true), TrialContext()).at("stature"),
             "1.68 m (from the source)");
+}
+
+// As a bag has them.
+TEST(LoadSummary, SaysWhatChangedInTheRecording) {
+  LoadTrial trial(false, 0);
+  const auto add = [&](double secs, double mass, double both_kg) {
+    SceneState scene = SceneWithRatio(secs, 0.2);
+    auto model = std::make_shared<PersonModel>(*scene.people[0].model);
+    model->description.mass_kg = mass;
+    model->description.mass_is_assumed = false;
+    scene.people[0].model = model;
+    scene.people[0].forces.stated_hand_load = {true, {0, 0}, both_kg};
+    AddTo(trial, scene);
+  };
+  add(0, 90, 10);
+  add(0.5, 90, 10);
+  EXPECT_EQ(ToldText(trial), "");
+  add(1, 90, 4);
+  add(1.5, 60, 4);
+  add(2, 60, 4);
+  EXPECT_EQ(
+      ToldText(trial),
+      "Body mass and hand load changed during the recording: from 0.00 s 90 kg, male, holding "
+      "10 kg both hands; from 1.00 s 90 kg, male, holding 4 kg both hands; from 1.50 s 60 kg, "
+      "male, holding 4 kg both hands.");
+  EXPECT_THAT(NotesOf(trial, TrialContext()), Contains(ToldText(trial)));
+  EXPECT_EQ(FactTexts(trial, TrialContext()).at("hand load"), "4 kg both hands");
+  EXPECT_EQ(FactTexts(trial, TrialContext()).at("mass"), "60 kg");
 }
 
 TEST(LoadSummary, NamesTheLoadMode) {

@@ -52,6 +52,21 @@ TEST(Sensitivity, SupposesAHandLoadOnlyWhereItIsUnknown) {
   EXPECT_THAT(LabelsOf(scene), Not(Contains(::testing::HasSubstr("hand load"))));
 }
 
+// The rows are named once it is known what the recording says.
+TEST(Sensitivity, VariesWhatARecordingMaySay) {
+  SceneOptions scene;
+  const std::vector<Variation> variations = VariationsOf(scene, /*may_be_told=*/true);
+  ASSERT_GT(variations.size(), 5U);
+  EXPECT_DOUBLE_EQ(variations[0].scene.supposed.mass_factor, 0.9);
+  EXPECT_EQ(variations[2].of, Variation::Of::kUnknownHandLoad);
+  EXPECT_DOUBLE_EQ(variations[2].scene.supposed.hand_load.both_kg, 5);
+  EXPECT_FALSE(variations[2].scene.loads.hands.is_known);
+  EXPECT_DOUBLE_EQ(variations[4].scene.supposed.hand_load_factor, 1.1);
+  scene.loads.hands.is_known = true;
+  scene.loads.hands.both_kg = 20;
+  EXPECT_EQ(VariationsOf(scene, true)[2].label, "hand load 18 kg (−2 kg)") << "an option counts";
+}
+
 TEST(Sensitivity, ChangesWhatTheOptionsHaveAlreadyChanged) {
   SceneOptions scene;
   scene.body.table = urdf::BodyTable::kWinter;

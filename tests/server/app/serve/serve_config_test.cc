@@ -176,6 +176,17 @@ TEST(ServeConfig, DrawsPeopleAlikeInAllPicturesAndOnThePage) {
   EXPECT_FALSE(ConfigOf({{"figure", "urdf"}}).page->look.draws_skins);
 }
 
+TEST(ServeConfig, HasABackgroundInAllPicturesOfTheServer) {
+  EXPECT_FALSE(ConfigOf({{"ros", "required"}}).pictures->background);
+  const ServeConfig config = ConfigOf({{"ros", "required"}, {"background", "#302020"}});
+  const Rgb dark = *ColorFromHex("#302020");
+  EXPECT_EQ(config.pictures->background, dark);
+  EXPECT_EQ(config.ros_camera->background, dark);
+  EXPECT_EQ(config.clips->view.background->color, dark);
+  EXPECT_EQ(*config.clips->view.theme, render::Theme::kDark);
+  EXPECT_THROW((void)ConfigOf({{"background", "transparent"}}), UsageError);
+}
+
 TEST(ServeConfig, TellsThePageOfACameraThatWasPlaced) {
   EXPECT_EQ(ConfigOf({{"camera", "front"}}).page->camera, "front");
   EXPECT_EQ(ConfigOf({}).page->cameras.size(), render::CameraNames().size());

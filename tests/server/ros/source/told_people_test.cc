@@ -45,9 +45,10 @@ class ToldPeopleTest : public ::testing::Test {
     people_.OnSample(sample);
   }
   bool Take(const std::vector<kinescope_ros::Person>& people) {
-    return people_.Take(BytesOf(Told(people)));
+    return people_.Take(BytesOf(Told(people)), now_);
   }
 
+  std::int64_t now_ = kNanosPerSecond;
   kinescope::testing::RecordingSink sink_;
   ToldPeople people_{[](int) { return ToldPeople::Marks{"anna_pelvis", ""}; }};
 };
@@ -97,15 +98,41 @@ TEST_F(ToldPeopleTest, NeitherTakeWhatIsNoMessageNorGrowWithoutLimit) {
   people_.OnCharacter({});
   ASSERT_TRUE(Take({Told("anna", 70, 0)}));
   for (int n = 0; n < 1000; ++n) ASSERT_TRUE(Take({Told("robot_" + std::to_string(n), 60, 0)}));
-  EXPECT_TRUE(people_.Knows("/anna/"));
-  EXPECT_TRUE(people_.Knows("/robot_5/"));
-  EXPECT_FALSE(people_.Knows("/robot_500/"));
   std::vector<std::uint8_t> bytes = BytesOf(Told({Told("anna", 80, 0)}));
   bytes.pop_back();
-  EXPECT_FALSE(people_.Take(bytes));
-  EXPECT_FALSE(people_.Take({255, 255, 255, 255}));
+  EXPECT_FALSE(people_.Take(bytes, now_));
+  EXPECT_FALSE(people_.Take({255, 255, 255, 255}, now_));
   Sample();
   EXPECT_EQ(sink_.characters.back().told.mass_kg, 70);
+}
+
+// Its person may be told of by another node now, or by none.
+TEST_F(ToldPeopleTest, AreForgottenWithTheNodeThatTold) {
+  people_.OnCharacter({});
+  kinescope_ros::Person other = Told("anna", 60, 0);
+  other.topics = "/another_node/";
+  ASSERT_TRUE(Take({Told("anna", 55, 0)}));
+  ASSERT_TRUE(Take({other}));
+  const auto go_on = [&](double secs, const std::vector<kinescope_ros::Person>& heard) {
+    for (const std::int64_t end = now_ + static_cast<std::int64_t>(secs * kNanosPerSecond);
+         now_ < end; now_ += kNanosPerSecond / 2) {
+      if (!heard.empty()) ASSERT_TRUE(Take(heard));
+      people_.Forget(now_);
+      Sample();
+    }
+  };
+  go_on(4, {Told("anna", 55, 0)});
+  EXPECT_EQ(sink_.characters.back().told.mass_kg, 60);
+  go_on(3, {Told("anna", 55, 0)});
+  EXPECT_EQ(sink_.characters.back().told.mass_kg, 55) << "the other one has gone";
+  now_ += 60 * kNanosPerSecond;  // the suit is off, and on again before its node tells
+  people_.Forget(now_);
+  Sample();
+  EXPECT_EQ(sink_.characters.back().told.mass_kg, 55);
+  go_on(6, {});
+  EXPECT_FALSE(sink_.characters.back().told.mass_kg);
+  EXPECT_FALSE(sink_.characters.back().told_hand_load.is_known);
+  EXPECT_TRUE(people_.is_empty());
 }
 
 TEST(PersonMessages, HaveWhatWasToldOfAPerson) {
@@ -139,6 +166,20 @@ TEST(PersonMessages, HaveWhatWasToldOfAPerson) {
   EXPECT_EQ(load.com_in_hand[urdf::kLeft], Eigen::Vector3d(0, 0, -0.2));
   message.hand_load.right_com = {1, 2};
   EXPECT_NE(ReadHandLoad(message.hand_load, load), "");
+}
+
+// Of a bag that was cut, the first words that it has may be a change.
+TEST_F(BagTest, HasNotWhatWasToldLongAfterItsBeginning) {
+  const ReadPeople read = ReadBag(Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 300; ++n) {
+      const ros::Time now = RosTimeOf(kBagStart + n * kBagPeriod);
+      bag.write("/tf", now, TransformsOf(PersonAt(n % 10, "anna")));
+      if (n == 200) bag.write("/kinescope/people", now, Told({Told("anna", 70, 5)}));
+    }
+  }));
+  ASSERT_GE(read.characters.size(), 2U);
+  EXPECT_FALSE(read.characters.front().told.mass_kg);
+  EXPECT_EQ(read.characters.back().told.mass_kg, 70);
 }
 
 TEST_F(BagTest, HasWhatWasToldOfItsPeopleFromTheFirstSampleOn) {
