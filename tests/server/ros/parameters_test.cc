@@ -104,16 +104,16 @@ TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOne
     names.push_back(static_cast<std::string>(topics.value[i][0]));
   }
   std::sort(names.begin(), names.end());
-  EXPECT_THAT(
-      names,
-      ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped", "/kinescope/anna/cop",
-                  "/kinescope/anna/joint_loads", "/kinescope/anna/joint_states",
-                  "/kinescope/anna/landmarks", "/kinescope/anna/link_states",
-                  "/kinescope/anna/markers", "/kinescope/anna/time_code", "/kinescope/anna/utc",
-                  "/kinescope/com", "/kinescope/com_stamped", "/kinescope/cop",
-                  "/kinescope/joint_loads", "/kinescope/joint_states", "/kinescope/landmarks",
-                  "/kinescope/link_states", "/kinescope/markers", "/kinescope/marks",
-                  "/kinescope/state", "/kinescope/time_code", "/kinescope/utc"));
+  EXPECT_THAT(names, ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped",
+                                 "/kinescope/anna/cop", "/kinescope/anna/joint_loads",
+                                 "/kinescope/anna/joint_states", "/kinescope/anna/landmarks",
+                                 "/kinescope/anna/link_states", "/kinescope/anna/markers",
+                                 "/kinescope/anna/time_code", "/kinescope/anna/utc",
+                                 "/kinescope/com", "/kinescope/com_stamped", "/kinescope/cop",
+                                 "/kinescope/joint_loads", "/kinescope/joint_states",
+                                 "/kinescope/landmarks", "/kinescope/link_states",
+                                 "/kinescope/markers", "/kinescope/marks", "/kinescope/people",
+                                 "/kinescope/state", "/kinescope/time_code", "/kinescope/utc"));
 }
 
 class RosBridgeForOtherComputers : public RosBridgeWithMaster {
