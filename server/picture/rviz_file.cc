@@ -14,6 +14,7 @@
 #include "core/system/errors.h"
 #include "core/system/input_file.h"
 #include "core/system/starts_with.h"
+#include "render/scene_look.h"
 #include "server/options/ros_names.h"
 #include "server/options/text.h"
 #include "server/options/yaml_file.h"
