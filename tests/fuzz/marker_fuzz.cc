@@ -223,7 +223,7 @@ void CheckTold(const std::vector<std::uint8_t>& bytes) {
     void OnSample(const BodySample&) override { ++samples; }
     int characters = 0, samples = 0;
   } sink;
-  ToldPeople people([](int) { return ToldPeople::Marks{"anna_pelvis", "/anna/"}; });
+  ToldPeople people([](int) { return ToldPeople::Key{"anna_pelvis", "/anna/"}; });
   people.SetSink(&sink);
   people.OnCharacter({});
   static_cast<void>(people.Take(bytes, 1));

@@ -26,6 +26,15 @@ const char* Name(loads::Percentile percentile) {
   return "50th";
 }
 
+HandLoad LoadOf(const StatedHandLoad& stated) {
+  HandLoad hands;
+  hands.is_known = stated.is_known;
+  hands.mass_kg = stated.alone_kg;
+  hands.both_kg = stated.both_kg;
+  hands.com_in_hand = stated.com_in_hand;
+  return hands;
+}
+
 std::string HandsText(const loads::HandLoad& hands) {
   if (!hands.is_known) return "nothing";
   std::string text;
@@ -184,26 +193,14 @@ std::string ToldText(const LoadTrial& trial) {
   std::string text = "Body mass and hand load changed during the recording: ";
   for (std::size_t i = 0; i < told.size() && i < kMostNamed; ++i) {
     const urdf::BodyDescription& body = told[i].body;
-    HandLoad hands;
-    hands.mass_kg = told[i].hands.alone_kg;
-    hands.both_kg = told[i].hands.both_kg;
-    hands.is_known = told[i].hands.is_known;
     text += fmt::format("{}from {:.2f} s {:g} kg, {}, holding {}", i == 0 ? "" : "; ",
                         std::max(0.0, trial.SecsOf(told[i].stamp_nanos)), body.mass_kg,
-                        Name(body.sex), HandsText(hands));
+                        Name(body.sex), HandsText(LoadOf(told[i].hands)));
   }
   return text + (told.size() > kMostNamed ? "; and more." : ".");
 }
 
-HandLoad HandsOf(const LoadTrial& trial) {
-  const StatedHandLoad& stated = trial.newest().forces.stated_hand_load;
-  HandLoad hands;
-  hands.is_known = stated.is_known;
-  hands.mass_kg = stated.alone_kg;
-  hands.both_kg = stated.both_kg;
-  hands.com_in_hand = stated.com_in_hand;
-  return hands;
-}
+HandLoad HandsOf(const LoadTrial& trial) { return LoadOf(trial.newest().forces.stated_hand_load); }
 
 std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const PersonModel& model = *trial.newest().model;

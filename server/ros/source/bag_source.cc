@@ -190,7 +190,7 @@ class BagSource : public Source {
   static bool IsOfPeople(const BagConnection& connection) {
     return Is<kinescope_ros::PersonArray>(connection.md5sum);
   }
-  ToldPeople::Marks MarksOf(int character) const;
+  ToldPeople::Key KeyOf(int character) const;
 
   void ReadNames();
   /// The frame of the first sample, in which markers stand from the beginning; "" if none comes
@@ -240,7 +240,7 @@ class BagSource : public Source {
   TransformPeople people_{0};
   MotionJoiner joiner_;
   RecordedLoads recorded_loads_;
-  ToldPeople told_people_{[this](int character) { return MarksOf(character); }};
+  ToldPeople told_people_{[this](int character) { return KeyOf(character); }};
   CommonFrame common_frame_;
   SampleWatch watch_;                              // what is delivered goes through it
   std::map<std::string, LinkStatesPerson> links_;  // by topic; empty if there are people on /tf
@@ -601,7 +601,7 @@ void BagSource::TakeLinkStates(const BagMessage& message) {
   person->second.Take(link_states_, {message.recorded_nanos, 0}, origin_, counters_, told_people_);
 }
 
-ToldPeople::Marks BagSource::MarksOf(int character) const {
+ToldPeople::Key BagSource::KeyOf(int character) const {
   const std::size_t index = urdf::At(character);
   if (!links_.empty()) {
     return {"", index < links_.size()

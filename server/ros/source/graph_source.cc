@@ -326,7 +326,7 @@ class GraphSource : public Source {
                            std::size_t{0});
   }
 
-  ToldPeople::Marks MarksOf(int character) const {
+  ToldPeople::Key KeyOf(int character) const {
     const auto& people = people_.people();
     const std::size_t index = urdf::At(character);
     if (index < people.size()) return {people[index].frames[urdf::kPelvis], ""};
@@ -350,7 +350,7 @@ class GraphSource : public Source {
   TransformPeople people_;
   CommonFrame common_frame_;
   LinkStatesPerson link_states_;
-  ToldPeople told_people_{[this](int character) { return MarksOf(character); }};
+  ToldPeople told_people_{[this](int character) { return KeyOf(character); }};
   SampleOrigin origin_;                                  // of `link_states_`
   tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
   xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "core/system/utf8.h"
 #include "server/ros/person_messages.h"
@@ -43,13 +44,12 @@ void ToldPeople::Forget(std::int64_t now_nanos) {
 
 // Of two nodes that tell of the same frame, the one that told something last.
 const ToldPeople::Told* ToldPeople::Find(int character) const {
-  const Marks marks = marks_of_(character);
+  const Key key = key_of_(character);
   const Told* found = nullptr;
   for (const Told& told : told_) {
     const kinescope_ros::Person& person = told.message;
-    const bool is_meant =
-        (!marks.pelvis_frame.empty() && person.pelvis_frame == marks.pelvis_frame) ||
-        (!marks.topics.empty() && person.topics == marks.topics);
+    const bool is_meant = (!key.pelvis_frame.empty() && person.pelvis_frame == key.pelvis_frame) ||
+                          (!key.topics.empty() && person.topics == key.topics);
     if (is_meant && (found == nullptr || told.revision > found->revision)) found = &told;
   }
   return found;
@@ -62,9 +62,8 @@ void ToldPeople::Say(const std::string& name, const kinescope_ros::Person* told)
   if (told != nullptr && !std::isnan(told->body_mass)) {
     parts.push_back(fmt::format("body mass {:.4g} kg", told->body_mass));
   }
-  if (told != nullptr && told->sex != kinescope_ros::Person::SEX_NOT_TOLD) {
-    parts.emplace_back(Name(*ToldOf(*told).sex));
-  }
+  const std::optional<urdf::Sex> sex = told != nullptr ? ToldOf(*told).sex : std::nullopt;
+  if (sex) parts.emplace_back(Name(*sex));
   if (told != nullptr && told->hand_load_known) {
     const auto& held = told->hand_load;
     const double all_kg = held.right_kg + held.left_kg + held.both_kg;

@@ -22,13 +22,12 @@ class ToldPeople : public SampleSink {
   static constexpr std::int64_t kForgetAfterNanos = 5 * kTellEveryNanos;
 
   /// By what a person is known; "": not by that.
-  struct Marks {
+  struct Key {
     std::string pelvis_frame;
     std::string topics;  // name in front of theirs
   };
 
-  explicit ToldPeople(std::function<Marks(int character)> marks_of)
-      : marks_of_(std::move(marks_of)) {}
+  explicit ToldPeople(std::function<Key(int character)> key_of) : key_of_(std::move(key_of)) {}
 
   /// Where people and samples go; not null while some come.
   void SetSink(SampleSink* sink) { sink_ = sink; }
@@ -62,7 +61,7 @@ class ToldPeople : public SampleSink {
   void Give(Person& person);
   void Say(const std::string& name, const kinescope_ros::Person* told);
 
-  const std::function<Marks(int character)> marks_of_;
+  const std::function<Key(int character)> key_of_;
   SampleSink* sink_ = nullptr;
   kinescope_ros::PersonArray message_;  // reused, keeps its memory
   std::vector<Told> told_;

@@ -50,7 +50,7 @@ class ToldPeopleTest : public ::testing::Test {
 
   std::int64_t now_ = kNanosPerSecond;
   kinescope::testing::RecordingSink sink_;
-  ToldPeople people_{[](int) { return ToldPeople::Marks{"anna_pelvis", ""}; }};
+  ToldPeople people_{[](int) { return ToldPeople::Key{"anna_pelvis", ""}; }};
 };
 
 TEST_F(ToldPeopleTest, ArePassedOnBeforeTheNextSampleWhenSomethingChanged) {
@@ -102,6 +102,11 @@ TEST_F(ToldPeopleTest, NeitherTakeWhatIsNoMessageNorGrowWithoutLimit) {
   bytes.pop_back();
   EXPECT_FALSE(people_.Take(bytes, now_));
   EXPECT_FALSE(people_.Take({255, 255, 255, 255}, now_));
+  kinescope_ros::Person odd = Told("anna", 70, 0);
+  odd.sex = 7;
+  ASSERT_TRUE(Take({odd}));
+  Sample();
+  EXPECT_FALSE(sink_.characters.back().told.sex);
   Sample();
   EXPECT_EQ(sink_.characters.back().told.mass_kg, 70);
 }
