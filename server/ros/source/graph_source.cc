@@ -231,7 +231,6 @@ class GraphSource : public Source {
       return Take([&](SampleSink& sink) {
         SamplesInOneFrame in_frame(common_frame_, people_, sink);
         told_people_.SetSink(&in_frame);
-        told_people_.Forget(now.monotonic_nanos);
         const bool has_person = people_.Take(transforms_, now, counters_, told_people_);
         if (!has_person) return;
         OnPerson(event, stamp, now);
@@ -247,7 +246,6 @@ class GraphSource : public Source {
       for (auto& state : link_state_array_.states) Shift(state.header.stamp, shift);
       return Take([&](SampleSink& sink) {
         told_people_.SetSink(&sink);
-        told_people_.Forget(now.monotonic_nanos);
         link_states_.Take(link_state_array_, now, origin_, counters_, told_people_);
         OnPerson(event, stamp, now);
       });

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "core/system/utf8.h"
@@ -21,36 +20,31 @@ bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_n
              told.message.topics == person.topics;
     });
     if (known != told_.end()) known->heard_nanos = now_nanos;
-    if (known != told_.end() && AreEqual(known->message, person)) continue;
+    if (known != told_.end() && !known->is_gone && AreEqual(known->message, person)) continue;
     if (known == told_.end()) {
-      if (told_.size() >= kMostPeople) continue;
-      known = told_.insert(told_.end(), Told());
+      known = told_.size() < kMostPeople
+                  ? told_.insert(told_.end(), Told())
+                  : std::min_element(told_.begin(), told_.end(), [](const Told& a, const Told& b) {
+                      return a.heard_nanos < b.heard_nanos;
+                    });
     }
-    *known = {person, ++revisions_, now_nanos};
+    *known = {person, ++revisions_, now_nanos, false};
   }
   return true;
 }
 
-void ToldPeople::Forget(std::int64_t now_nanos) {
-  constexpr std::int64_t kPauseNanos = kNanosPerSecond;
-  const std::int64_t paused = now_nanos - std::exchange(looked_nanos_, now_nanos);
-  for (auto told = told_.begin(); told != told_.end();) {
-    if (paused > kPauseNanos) told->heard_nanos = now_nanos;
-    const bool is_gone = now_nanos - told->heard_nanos > kForgetAfterNanos;
-    if (is_gone) ++revisions_;
-    told = is_gone ? told_.erase(told) : std::next(told);
-  }
-}
-
 // Of two nodes that tell of the same frame, the one that told something last.
-const ToldPeople::Told* ToldPeople::Find(int character) const {
-  const Key key = key_of_(character);
+const ToldPeople::Told* ToldPeople::Find(const Person& of) {
+  const Key key = key_of_(of.character.id);
   const Told* found = nullptr;
-  for (const Told& told : told_) {
+  for (Told& told : told_) {
     const kinescope_ros::Person& person = told.message;
     const bool is_meant = (!key.pelvis_frame.empty() && person.pelvis_frame == key.pelvis_frame) ||
                           (!key.topics.empty() && person.topics == key.topics);
-    if (is_meant && (found == nullptr || told.revision > found->revision)) found = &told;
+    if (!is_meant) continue;
+    const std::int64_t silent = of.newest_nanos - std::max(told.heard_nanos, of.since_nanos);
+    told.is_gone = told.is_gone || silent > kForgetAfterNanos;
+    if (!told.is_gone && (found == nullptr || told.revision > found->revision)) found = &told;
   }
   return found;
 }
@@ -75,7 +69,7 @@ void ToldPeople::Say(const std::string& name, const kinescope_ros::Person* told)
 
 void ToldPeople::Give(Person& person) {
   Character character = person.character;
-  const Told* const told = Find(character.id);
+  const Told* const told = Find(person);
   const std::uint64_t revision = told == nullptr ? 0 : told->revision;
   const bool has_something =
       told != nullptr && !(ToldOf(told->message).is_empty() && !told->message.hand_load_known);
@@ -103,8 +97,13 @@ void ToldPeople::OnCharacter(const Character& character) {
 void ToldPeople::OnSample(const BodySample& sample) {
   Person& person = people_[sample.character];
   person.character.id = sample.character;
-  if (std::exchange(person.looked, revisions_) != revisions_) {
-    const Told* const told = Find(sample.character);
+  constexpr std::int64_t kPauseNanos = kNanosPerSecond;
+  const std::int64_t now = sample.arrival_nanos;
+  if (now - std::exchange(person.newest_nanos, now) > kPauseNanos) person.since_nanos = now;
+  const bool is_due = now - person.looked_nanos > kTellEveryNanos;
+  if (is_due) person.looked_nanos = now;
+  if (std::exchange(person.looked, revisions_) != revisions_ || is_due) {
+    const Told* const told = Find(person);
     if ((told == nullptr ? 0 : told->revision) != person.revision) Give(person);
   }
   sink_->OnSample(sample);

@@ -1,5 +1,7 @@
 /// Adds to people what the node of their suit was told about them, beside the motion: as it tells
-/// other nodes, and recorders, on kPeopleTopic. The latest counts. Memory is limited; one thread.
+/// other nodes, and recorders, on kPeopleTopic. The latest counts. Of a graph, a node that has not
+/// been heard for kForgetAfterNanos, while the person's samples came, does not count any more.
+/// Memory is limited; one thread.
 #pragma once
 
 #include <kinescope/PersonArray.h>
@@ -32,12 +34,9 @@ class ToldPeople : public SampleSink {
   /// Where people and samples go; not null while some come.
   void SetSink(SampleSink* sink) { sink_ = sink; }
 
-  /// Takes the bytes of a kinescope/PersonArray. False: they are none.
+  /// Takes the bytes of a kinescope/PersonArray. `now_nanos`: clock of BodySample::arrival_nanos.
+  /// False: they are none.
   [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos);
-
-  /// Of a graph, many times a second while samples come: what a node told that has not been heard
-  /// for kForgetAfterNanos is forgotten. A time in which no samples come does not count.
-  void Forget(std::int64_t now_nanos);
 
   bool is_empty() const { return told_.empty(); }
 
@@ -49,15 +48,19 @@ class ToldPeople : public SampleSink {
     kinescope_ros::Person message;
     std::uint64_t revision = 0;  // increases with every change
     std::int64_t heard_nanos = 0;
+    bool is_gone = false;  // the node that told it, until it is heard again
   };
   struct Person {
     Character character;         // as the source described it
     std::uint64_t revision = 0;  // of what was passed on; 0: nothing was
     std::uint64_t looked = 0;    // revisions_ when that was looked for
     bool has_something = false;  // in what was passed on
+    // Arrivals, of a graph; 0: none, or of a recording.
+    std::int64_t newest_nanos = 0, looked_nanos = 0;
+    std::int64_t since_nanos = 0;  // samples have come without a pause
   };
 
-  const Told* Find(int character) const;
+  const Told* Find(const Person& person);
   void Give(Person& person);
   void Say(const std::string& name, const kinescope_ros::Person* told);
 
@@ -66,9 +69,8 @@ class ToldPeople : public SampleSink {
   kinescope_ros::PersonArray message_;  // reused, keeps its memory
   std::vector<Told> told_;
   std::uint64_t revisions_ = 0;
-  std::int64_t looked_nanos_ = 0;  // by Forget()
-  int said_ = 0;                   // lines of the log
-  std::map<int, Person> people_;   // by character; as many as the source has
+  int said_ = 0;                  // lines of the log
+  std::map<int, Person> people_;  // by character; as many as the source has
 };
 
 }  // namespace kinescope::ros_bridge
