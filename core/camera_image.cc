@@ -79,8 +79,7 @@ std::string FindDefect(const CameraImage& image) {
   if (!format) {
     return "encoding '" + PrintableLine(image.encoding.substr(0, kLongestName)) +
            "': expected rgb8, bgr8, rgba8, bgra8, bayer_..8, mono8, mono16, 8UC1, 8UC3, 8UC4, "
-           "16UC1, 32FC1, "
-           "yuv422, JPEG or PNG";
+           "16UC1, 32FC1, yuv422, JPEG or PNG";
   }
   if (image.width <= 0 || image.height <= 0 || image.width > kMostSide ||
       image.height > kMostSide) {

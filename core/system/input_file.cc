@@ -198,10 +198,11 @@ class InputFile::Content {
   std::vector<char> chunk_ = std::vector<char>(kChunkBytes);
 };
 
-std::string WhereItBegins(const std::string& path) {
+std::string CannotRead(const std::string& path) {
+  const std::string text = path + ": cannot read this file";
+  if (std::filesystem::path(path).is_absolute()) return text;
   std::error_code unknown;
-  const auto folder = std::filesystem::current_path(unknown);
-  return std::filesystem::path(path).is_absolute() ? "" : ", in the folder " + folder.string();
+  return text + ", in the folder " + std::filesystem::current_path(unknown).string();
 }
 
 InputFile::InputFile(std::FILE* file) : file_(file), notes_(std::make_shared<Notes>()) {}

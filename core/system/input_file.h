@@ -11,9 +11,9 @@
 
 namespace kinescope {
 
-/// For an error about a file: ", in the folder /root/.ros" of a relative path, which begins in the
-/// folder that the program was started in; "" of another.
-std::string WhereItBegins(const std::string& path);
+/// For an error: "<path>: cannot read this file", and in which folder a relative path begins: that
+/// in which the program was started.
+std::string CannotRead(const std::string& path);
 
 /// An open file; knows why reading failed. Movable; the destructor closes the file.
 class InputFile {

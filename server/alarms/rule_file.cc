@@ -99,10 +99,8 @@ class Reader {
     try {
       root = load();
     } catch (const YAML::BadFile&) {
-      throw UsageError(
-          fmt::format("--alarms={}: cannot read this file{}; expected a file of rules "
-                      "(docs/alarms.md) or default",
-                      path_, WhereItBegins(path_)));
+      throw UsageError(fmt::format(
+          "--alarms={}; expected a file of rules (docs/alarms.md) or default", CannotRead(path_)));
     } catch (const YAML::Exception& problem) {
       throw UsageError(
           fmt::format("--alarms={}: line {}: {}", path_, problem.mark.line + 1, problem.msg));

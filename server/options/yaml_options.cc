@@ -38,7 +38,7 @@ void YamlOptions::Load(const Read& read) {
   try {
     root_->node = read();
   } catch (const YAML::BadFile&) {
-    throw UsageError(fmt::format("{}: cannot read this file{}", path_, WhereItBegins(path_)));
+    throw UsageError(CannotRead(path_));
   } catch (const YAML::Exception& error) {
     throw UsageError(fmt::format("{}:{}: not valid YAML ({}); expected one 'name: value' per line",
                                  path_, error.mark.line + 1, error.msg));

@@ -484,7 +484,7 @@ RvizPicture Read(const std::string& path, int height_px, const Load& load) {
   try {
     return RvizReader(path, height_px).Read(load());
   } catch (const YAML::BadFile&) {
-    throw UsageError(fmt::format("{}: cannot read this file{}", path, WhereItBegins(path)));
+    throw UsageError(CannotRead(path));
   } catch (const YAML::Exception& error) {
     throw UsageError(
         fmt::format("{}:{}: not valid YAML ({})", path, error.mark.line + 1, error.msg));

@@ -77,14 +77,16 @@ std::optional<std::string> DescriptionParameters::DescriptionOf(const std::strin
     names_.erase(known);
   }
   const std::string usual = prefix + kDescription;
+  std::string owner;  // of that; "": this node, or no Kinescope
   for (const std::string& name :
        {usual, prefix + "human_description", "~" + prefix + "human_description"}) {
     bool answers = true;
     const bool is_others = IsOthers(name, answers);
     if (!answers) return std::nullopt;
-    if (is_others || !OwnerOf(name).empty()) continue;
+    const std::string node = is_others ? "" : OwnerOf(name);
+    if (name == usual) owner = node;
+    if (is_others || !node.empty()) continue;
     if (name != usual) {
-      const std::string owner = OwnerOf(usual);
       // A monitor has the people of other nodes: that is no conflict.
       spdlog::log(
           !owner.empty() && config_.people_are_of_graph ? spdlog::level::info : spdlog::level::warn,

@@ -122,27 +122,12 @@ bool TfTree::IsSetBack(Moving& moving, const ros::Time& stamp) {
   return true;
 }
 
-// tf2 can only forget all moving frames: those whose time goes on get their newest transform again,
-// and lose the ten seconds before it.
-void TfTree::SetBack() {
-  buffer_.clear();  // static ones stay
-  for (auto each = moving_.begin(); each != moving_.end();) {
-    if (each->second.too_old_in_a_row == 0 && each->second.behind_in_a_row == 0) {
-      buffer_.setTransform(each->second.newest, "/tf", false);
-      ++each;
-    } else {
-      frames_.erase(each->first);
-      each = moving_.erase(each);
-    }
-  }
-}
-
-void TfTree::StartAgain(std::int64_t now_nanos) {
-  constexpr std::int64_t kJustNanos = 100 * kNanosPerMilli;
+template <class Stays>
+void TfTree::ForgetUnless(const Stays& stays) {
   buffer_.clear();  // static ones stay
   for (auto each = moving_.begin(); each != moving_.end();) {
     Moving& moving = each->second;
-    if (ToNanos(moving.newest.header.stamp) <= now_nanos + kJustNanos) {
+    if (stays(moving)) {
       buffer_.setTransform(moving.newest, "/tf", false);
       moving.too_old_in_a_row = moving.behind_in_a_row = 0;
       ++each;
@@ -151,6 +136,20 @@ void TfTree::StartAgain(std::int64_t now_nanos) {
       each = moving_.erase(each);
     }
   }
+}
+
+// The time of the others goes on.
+void TfTree::SetBack() {
+  ForgetUnless([](const Moving& moving) {
+    return moving.too_old_in_a_row == 0 && moving.behind_in_a_row == 0;
+  });
+}
+
+void TfTree::StartAgain(std::int64_t now_nanos) {
+  constexpr std::int64_t kJustNanos = 100 * kNanosPerMilli;
+  ForgetUnless([&](const Moving& moving) {
+    return ToNanos(moving.newest.header.stamp) <= now_nanos + kJustNanos;
+  });
 }
 
 void TfTree::Note(const std::string& frame, const geometry_msgs::TransformStamped& transform) {

@@ -78,6 +78,10 @@ class TfTree {
     int round = 0;             // round_ when it was last continued
   };
 
+  /// tf2 can only forget all moving frames: those that `stays` holds for get their newest transform
+  /// again, and lose the ten seconds before it.
+  template <class Stays>
+  void ForgetUnless(const Stays& stays);
   void SetBack();
   bool IsSetBack(Moving& moving, const ros::Time& stamp);
   void Note(const std::string& frame, const geometry_msgs::TransformStamped& transform);

@@ -84,7 +84,7 @@ const char* OriginOf(bool is_set, bool is_assumed, bool is_option) {
   return is_set ? "operator" : is_assumed ? "assumed" : is_option ? "option" : "bridge";
 }
 
-// Nobody here has said so.
+// Neither an operator nor an option of this server has set them.
 HeldLoad ToldHands(const PersonState& person, const HeldLoad& first) {
   const StatedHandLoad& stated = person.forces.stated_hand_load;
   if (first.load.is_known || !stated.is_known) return first;

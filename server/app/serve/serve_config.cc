@@ -159,8 +159,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   if (options.background->is_transparent) {
     throw UsageError(
         "--background=transparent: the live picture is a JPEG, which is never transparent; "
-        "expected "
-        "theme, white, black or #RRGGBB");
+        "expected theme, white, black or #RRGGBB");
   }
   pictures.background = options.background->color;
   pictures.trails = options.trails.Settings();
