@@ -199,7 +199,7 @@ class InputFile::Content {
 };
 
 std::string CannotRead(const std::string& path) {
-  const std::string text = path + ": cannot read this file";
+  std::string text = path + ": cannot read this file";
   if (std::filesystem::path(path).is_absolute()) return text;
   std::error_code unknown;
   return text + ", in the folder " + std::filesystem::current_path(unknown).string();
