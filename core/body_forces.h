@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/hand_load.h"
 #include "urdf/segments.h"
 
 namespace kinescope {
@@ -72,15 +73,6 @@ struct HandForce {
   bool is_measured = false;                         // at least partly, by a sensor
 };
 
-/// Hand loads as they were set (option, page, ROS): the end values of the ramps. kg.
-struct StatedHandLoad {
-  bool is_known = false;                   // false: no hand load was set
-  std::array<double, 2> alone_kg{{0, 0}};  // held by one hand, by urdf::Side
-  double both_kg = 0;
-  /// CoM of what that hand alone holds, in its link frame, m; absent: at the grip point.
-  std::array<std::optional<Eigen::Vector3d>, 2> com_in_hand{};
-};
-
 struct BodyForces {
   LoadMetric metric = LoadMetric::kTotal;  // of the ratios
   /// Why `metric` is not the requested one ("no load is known: posture only"); "" if it is.
@@ -116,7 +108,7 @@ struct BodyForces {
   std::optional<double> margin_of_stability;        // m; positive inside the support polygon
 
   std::array<HandForce, 2> hands{};  // by urdf::Side
-  StatedHandLoad stated_hand_load;   // the hand loads as they were set
+  HandLoad stated_hand_load;         // as it was set: the end values of the ramps
   std::optional<LumbarLoad> lumbar;
 
   Eigen::Vector3d com_of_model = Eigen::Vector3d::Zero();  // world, m

@@ -84,7 +84,7 @@ void VisitForces(Column& column, Forces& forces) {
     column.Whole(hand.is_measured);
   }
   column.Whole(forces.stated_hand_load.is_known);
-  for (auto& mass : forces.stated_hand_load.alone_kg) column.Number(mass, kKilogram);
+  for (auto& mass : forces.stated_hand_load.mass_kg) column.Number(mass, kKilogram);
   column.Number(forces.stated_hand_load.both_kg, kKilogram);
   column.Optional(forces.lumbar, [&](auto& lumbar) {
     column.Number(lumbar.compression, kNewton);

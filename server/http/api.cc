@@ -57,10 +57,10 @@ json LoadToJson(const JointLoad& load) {
           {"secs_in_band", SecsToJson(load, 0.001)}};
 }
 
-json HandLoadToJson(const StatedHandLoad& stated) {
+json HandLoadToJson(const HandLoad& stated) {
   return {{"is_known", stated.is_known},
-          {"right_kg", stated.alone_kg[urdf::kRight]},
-          {"left_kg", stated.alone_kg[urdf::kLeft]},
+          {"right_kg", stated.mass_kg[urdf::kRight]},
+          {"left_kg", stated.mass_kg[urdf::kLeft]},
           {"both_kg", stated.both_kg}};
 }
 

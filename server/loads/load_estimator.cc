@@ -393,8 +393,7 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   forces.metric = settings.metric;
   forces.floor_z = subject.floor_z;
   forces.why_no_floor = subject.why_no_floor;
-  forces.stated_hand_load = {settings.hands.is_known, settings.hands.mass_kg,
-                             settings.hands.both_kg, settings.hands.com_in_hand};
+  forces.stated_hand_load = settings.hands;
   if (!IsPose(newest)) {
     ForgetEverything(newest, kNoPose, stamp);
     return result_;

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
@@ -72,6 +73,12 @@ struct Outlet {
   urdf::Landmarks landmarks;  // empty until there is a subscriber
   kinescope_ros::LandmarkArray landmark_array;
   sensor_msgs::TimeReference time;
+};
+
+// What others were told of one person comes from these.
+struct Told {
+  std::shared_ptr<const PersonModel> model;
+  HandLoad hand_load;
 };
 
 TfShape ShapeOf(const std::string& tf) {
@@ -260,22 +267,25 @@ class Bridge : public RosBridge {
   void TellOfPeople(const SceneState& state) {
     const auto node = registration_.Node();
     if (!node || !node->people) return;
-    kinescope_ros::PersonArray& message = people_now_;
-    message.people.resize(state.people.size());
-    for (std::size_t i = 0; i < state.people.size(); ++i) {
-      const Outlet& outlet = OutletOf(state.people[i]);
-      const auto topics = registration_.TopicsOf(state.people[i].character);
-      if (!topics) return;
-      FillPerson(state.people[i], outlet.names, NamespaceOf(topics->joint_loads.getTopic()),
-                 message.people[i]);
-    }
     const std::int64_t now = MonotonicNanos();
-    const bool is_same =
-        std::equal(message.people.begin(), message.people.end(), people_told_.people.begin(),
-                   people_told_.people.end(), AreEqual);
+    const bool is_same = std::equal(state.people.begin(), state.people.end(), told_.begin(),
+                                    told_.end(), [](const PersonState& person, const Told& told) {
+                                      return told.model == person.model &&
+                                             told.hand_load == person.forces.stated_hand_load;
+                                    });
     if (is_same && now - told_nanos_ < kTellEveryNanos) return;
+    kinescope_ros::PersonArray message;
+    std::vector<Told> told;
+    for (const PersonState& person : state.people) {
+      const Outlet& outlet = OutletOf(person);
+      const auto topics = registration_.TopicsOf(person.character);
+      if (!topics) return;
+      FillPerson(person, outlet.names, NamespaceOf(topics->joint_loads.getTopic()),
+                 message.people.emplace_back());
+      told.push_back({person.model, person.forces.stated_hand_load});
+    }
+    told_ = std::move(told);
     told_nanos_ = now;
-    people_told_ = message;
     node->people.publish(message);
   }
 
@@ -528,10 +538,9 @@ class Bridge : public RosBridge {
   std::atomic<std::uint64_t> missed_ = 0;
 
   // Used by the publishing thread only.
-  std::map<int, Outlet> outlets_;           // by character
-  kinescope_ros::PersonArray people_now_;   // reused, keeps its memory
-  kinescope_ros::PersonArray people_told_;  // to others
-  std::int64_t told_nanos_ = 0;             // then; monotonic clock
+  std::map<int, Outlet> outlets_;  // by character
+  std::vector<Told> told_;         // to others, of each person
+  std::int64_t told_nanos_ = 0;    // then; monotonic clock
   std::optional<StreamStatus>
       status_;  // of the samples of one person at a time; from the first diagnosis on
   bool is_stale_ = false;

@@ -23,10 +23,10 @@ void FillPerson(const PersonState& person, const PersonNames& names, const std::
   if (!body.sex_is_assumed) {
     message.sex = body.sex == urdf::Sex::kMale ? Person::MALE : Person::FEMALE;
   }
-  const StatedHandLoad& held = person.forces.stated_hand_load;
+  const HandLoad& held = person.forces.stated_hand_load;
   message.hand_load_known = held.is_known;
-  message.hand_load.right_kg = held.alone_kg[urdf::kRight];
-  message.hand_load.left_kg = held.alone_kg[urdf::kLeft];
+  message.hand_load.right_kg = held.mass_kg[urdf::kRight];
+  message.hand_load.left_kg = held.mass_kg[urdf::kLeft];
   message.hand_load.both_kg = held.both_kg;
   const auto com = [&](urdf::Side side) {
     const auto& at = held.com_in_hand[side];

@@ -13,11 +13,11 @@ export ROS_MASTER_URI=http://127.0.0.1:$master_port
 start_master
 
 print_machine
-"$build/tests/bench/bare_publisher" & bare=$!
-children+=("$bare")
-echo "roscpp alone, 240 Hz: $("$build/tests/bench/ros_latency" $((240 * length)) 240 /bare/joint_states)"
-kill "$bare"; wait "$bare" 2>/dev/null || true
 for rate in 60 120 240; do
+  "$build/tests/bench/bare_publisher" "$rate" & bare=$!
+  children+=("$bare")
+  echo "$rate Hz, roscpp alone: $("$build/tests/bench/ros_latency" $((rate * length)) "$rate" /bare/joint_states)"
+  kill "$bare"; wait "$bare" 2>/dev/null || true
   for people in 1 4; do
     udp=udp://127.0.0.1:$(port_of)
     "$kinescope" bridge "$udp" --ros required --stamps arrival 2>"$work/bridge.log" & bridge=$!

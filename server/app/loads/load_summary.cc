@@ -26,15 +26,6 @@ const char* Name(loads::Percentile percentile) {
   return "50th";
 }
 
-HandLoad LoadOf(const StatedHandLoad& stated) {
-  HandLoad hands;
-  hands.is_known = stated.is_known;
-  hands.mass_kg = stated.alone_kg;
-  hands.both_kg = stated.both_kg;
-  hands.com_in_hand = stated.com_in_hand;
-  return hands;
-}
-
 std::string HandsText(const loads::HandLoad& hands) {
   if (!hands.is_known) return "nothing";
   std::string text;
@@ -195,12 +186,12 @@ std::string ToldText(const LoadTrial& trial) {
     const urdf::BodyDescription& body = told[i].body;
     text += fmt::format("{}from {:.2f} s {:g} kg, {}, holding {}", i == 0 ? "" : "; ",
                         std::max(0.0, trial.SecsOf(told[i].stamp_nanos)), body.mass_kg,
-                        Name(body.sex), HandsText(LoadOf(told[i].hands)));
+                        Name(body.sex), HandsText(told[i].hands));
   }
   return text + (told.size() > kMostNamed ? "; and more." : ".");
 }
 
-HandLoad HandsOf(const LoadTrial& trial) { return LoadOf(trial.newest().forces.stated_hand_load); }
+const HandLoad& HandsOf(const LoadTrial& trial) { return trial.newest().forces.stated_hand_load; }
 
 std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const PersonModel& model = *trial.newest().model;
@@ -216,7 +207,7 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   }
   facts.push_back({"body table", urdf::Name(body.table), false});
   const auto [right_secs, left_secs] = trial.measured_hand_secs();
-  const HandLoad hands = HandsOf(trial);
+  const HandLoad& hands = HandsOf(trial);
   const bool is_only_measured = !hands.is_known && right_secs + left_secs > 0;
   facts.push_back({"hand load", is_only_measured ? "as measured" : HandsText(hands),
                    !hands.is_known && !is_only_measured});

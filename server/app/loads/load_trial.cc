@@ -67,13 +67,12 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
 
 void LoadTrial::KeepTold(const PersonState& person) {
   const urdf::BodyDescription& body = person.model->description;
-  const StatedHandLoad& hands = person.forces.stated_hand_load;
+  const HandLoad& hands = person.forces.stated_hand_load;
   if (!told_.empty()) {
     const Told& last = told_.back();
     const bool is_same = last.body.mass_kg == body.mass_kg && last.body.sex == body.sex &&
                          last.hands.is_known == hands.is_known &&
-                         last.hands.alone_kg == hands.alone_kg &&
-                         last.hands.both_kg == hands.both_kg;
+                         last.hands.mass_kg == hands.mass_kg && last.hands.both_kg == hands.both_kg;
     if (is_same || told_.size() >= kMostTold) return;
   }
   told_.push_back({person.sample.stamp_nanos, body, hands});

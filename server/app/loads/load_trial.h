@@ -71,7 +71,7 @@ class LoadTrial {
   struct Told {
     std::int64_t stamp_nanos = 0;
     urdf::BodyDescription body;
-    StatedHandLoad hands;
+    HandLoad hands;
   };
   /// At the beginning, and after each change; no more than kMostTold.
   const std::vector<Told>& told() const { return told_; }

@@ -58,13 +58,13 @@ class LoadTally {
   bool has_mass() const { return has_mass_; }
   bool has_hand_load() const { return hands_.is_known; }
   double mass_kg() const { return mass_kg_; }
-  double hand_load_kg() const { return hands_.alone_kg[0] + hands_.alone_kg[1] + hands_.both_kg; }
+  double hand_load_kg() const { return hands_.mass_kg[0] + hands_.mass_kg[1] + hands_.both_kg; }
 
  private:
   SensitivityRow row_;
   bool has_mass_ = false;
   double mass_kg_ = 0;
-  StatedHandLoad hands_;
+  HandLoad hands_;
   std::vector<float> low_back_ratios_;
 };
 

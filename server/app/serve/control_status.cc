@@ -86,12 +86,10 @@ const char* OriginOf(bool is_set, bool is_assumed, bool is_option) {
 
 // Neither an operator nor an option of this server has set them.
 HeldLoad ToldHands(const PersonState& person, const HeldLoad& first) {
-  const StatedHandLoad& stated = person.forces.stated_hand_load;
+  const HandLoad& stated = person.forces.stated_hand_load;
   if (first.load.is_known || !stated.is_known) return first;
   HeldLoad told = first;
-  told.load.is_known = true;
-  told.load.mass_kg = stated.alone_kg;
-  told.load.both_kg = stated.both_kg;
+  told.load = stated;
   told.since_micros = 0;
   told.by = "bridge";
   return told;

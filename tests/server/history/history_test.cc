@@ -72,7 +72,7 @@ TEST(History, GivesBackWhatPicturesAndTablesShow) {
   EXPECT_EQ(b.forces.support.size, 4u);
   EXPECT_NEAR(b.forces.lumbar->compression, 2150, 0.1);
   EXPECT_NEAR(*b.forces.margin_of_stability, 0.083, 1e-5);
-  EXPECT_EQ(b.forces.stated_hand_load.alone_kg[urdf::kRight], 5);
+  EXPECT_EQ(b.forces.stated_hand_load.mass_kg[urdf::kRight], 5);
   EXPECT_FALSE(b.forces.com_minus_mvn);
 }
 

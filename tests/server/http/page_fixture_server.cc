@@ -449,7 +449,8 @@ void Hold(const std::map<int, HandLoad>& loads, SceneState& state) {
   for (PersonState& person : state.people) {
     const auto found = loads.find(person.character);
     const HandLoad load = found != loads.end() ? found->second : HandLoad();
-    person.forces.stated_hand_load = {true, load.mass_kg, load.both_kg};
+    person.forces.stated_hand_load = load;
+    person.forces.stated_hand_load.is_known = true;
     person.forces.hands[urdf::kRight].mass_kg = load.mass_kg[urdf::kRight];
     person.forces.hands[urdf::kLeft] = person.forces.hands[urdf::kRight];
     person.forces.hands[urdf::kLeft].mass_kg = 0;

@@ -110,7 +110,7 @@ void AddForces(PersonState& person) {
   foot.force = {12, -5, 730};
   foot.cop = {middle.x(), middle.y() - 0.1, 0};
   forces.stated_hand_load.is_known = true;
-  forces.stated_hand_load.alone_kg[urdf::kRight] = 5;
+  forces.stated_hand_load.mass_kg[urdf::kRight] = 5;
   const urdf::Pose& hand = person.links[urdf::kRightHand];
   HandForce& held = forces.hands[urdf::kRight];
   held.mass_kg = 5;

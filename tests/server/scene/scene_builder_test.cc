@@ -136,7 +136,7 @@ TEST(SceneBuilder, KnowsOfPeopleWhatTheNodeOfTheirSuitWasToldUnlessOptionsOrOper
   show(with_options, 0);
   EXPECT_EQ(person(with_options).model->description.mass_kg, 70);
   EXPECT_EQ(person(with_options).model->description.sex, urdf::Sex::kFemale);
-  EXPECT_EQ(person(with_options).forces.stated_hand_load.alone_kg[urdf::kLeft], 2);
+  EXPECT_EQ(person(with_options).forces.stated_hand_load.mass_kg[urdf::kLeft], 2);
   EXPECT_EQ(person(with_options).forces.stated_hand_load.both_kg, 0);
 }
 

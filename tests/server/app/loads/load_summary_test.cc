@@ -36,7 +36,7 @@ std::map<std::string, std::string> FactTexts(const LoadTrial& trial, const Trial
 }
 
 LoadTrial TrialOfBody(const urdf::BodyDescription& body, bool lengths_are_measured = false,
-                      const StatedHandLoad& hands = {}) {
+                      const HandLoad& hands = {}) {
   SceneState scene = SceneWithRatio(0, 0.2);
   auto model = std::make_shared<PersonModel>();
   model->description = body;

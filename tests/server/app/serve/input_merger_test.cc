@@ -77,7 +77,7 @@ TEST(HandLoads, ReachTheShoulderWithTheNextSamples) {
   EXPECT_EQ(LoadOf(person, urdf::jRightShoulder).load_class, LoadClass::kMedium);
   EXPECT_EQ(LoadOf(person, urdf::jLeftShoulder).load_class, LoadClass::kLow);
   EXPECT_EQ(person.forces.hands[kRight].mass_kg, 2);
-  EXPECT_EQ(person.forces.stated_hand_load.alone_kg[kRight], 2);
+  EXPECT_EQ(person.forces.stated_hand_load.mass_kg[kRight], 2);
 }
 
 TEST(HandLoads, ApplyToOnePersonOnly) {
@@ -206,7 +206,7 @@ TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
   Wired wired(&bridge);
   bridge.load = HeldInRightHand(2);
   wired.sink.OnSample(TPose(1));
-  EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.alone_kg[kRight], 2);
+  EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.mass_kg[kRight], 2);
 }
 
 TEST(InputMerger, ForwardsTheNumberOfRosCameraSubscribersWithoutSamples) {
