@@ -226,7 +226,7 @@ void CheckTold(const std::vector<std::uint8_t>& bytes) {
   ToldPeople people([](int) { return ToldPeople::Key{"anna_pelvis", "/anna/"}; });
   people.SetSink(&sink);
   people.OnCharacter({});
-  static_cast<void>(people.Take(bytes, 1));
+  static_cast<void>(people.Take(bytes));
   people.OnSample({});
   people.OnSample({});
   KINESCOPE_CHECK(sink.samples == 2 && sink.characters >= 1 && sink.characters <= 2);

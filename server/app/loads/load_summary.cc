@@ -169,6 +169,44 @@ std::optional<ValueSummary> PeakSummary(const LoadTrial& trial, const Peak& peak
   return ValueSummary{peak.mean(), peak.most, trial.SecsOf(peak.at_nanos)};
 }
 
+constexpr std::size_t kMostNamed = 8;  // changes, in a text
+
+double SecsAt(const LoadTrial& trial, const LoadTrial::Told& told) {
+  return std::max(0.0, trial.SecsOf(told.stamp_nanos));
+}
+
+bool Is(const std::vector<LoadTrial::Told>& told, bool (*is)(const LoadTrial::Told&)) {
+  return std::all_of(told.begin(), told.end(), is);
+}
+
+// "90 kg; from 12.50 s 75 kg (assumed)": one value, or what it was from when on.
+template <class TextOf>
+Fact FactOver(const LoadTrial& trial, const char* label, TextOf text_of,
+              bool (*is_assumed)(const LoadTrial::Told&)) {
+  const bool is_all_assumed = Is(trial.told(), is_assumed);
+  std::string all, last;
+  std::size_t named = 0;
+  for (const LoadTrial::Told& told : trial.told()) {
+    std::string text = text_of(told);
+    if (is_assumed(told) && !is_all_assumed) text += " (assumed)";
+    if (text == last) continue;
+    if (++named > kMostNamed) return {label, all + "; and more", is_all_assumed};
+    all += all.empty() ? text : fmt::format("; from {:.2f} s {}", SecsAt(trial, told), text);
+    last = std::move(text);
+  }
+  return {label, std::move(all), is_all_assumed};
+}
+
+bool HandsAreUnknown(const LoadTrial::Told& told) { return !told.hands.is_known; }
+
+Fact HandLoadFact(const LoadTrial& trial) {
+  const auto [right_secs, left_secs] = trial.measured_hand_secs();
+  const bool is_measured = right_secs + left_secs > 0;
+  if (is_measured && Is(trial.told(), HandsAreUnknown)) return {"hand load", "as measured", false};
+  return FactOver(
+      trial, "hand load", [](const auto& told) { return HandsText(told.hands); }, HandsAreUnknown);
+}
+
 }  // namespace
 
 std::string TitleOf(const LoadTrial& trial) {
@@ -178,39 +216,37 @@ std::string TitleOf(const LoadTrial& trial) {
 }
 
 std::string ToldText(const LoadTrial& trial) {
-  constexpr std::size_t kMostNamed = 8;
   const auto& told = trial.told();
   if (told.size() < 2) return "";
   std::string text = "Body mass and hand load changed during the recording: ";
   for (std::size_t i = 0; i < told.size() && i < kMostNamed; ++i) {
     const urdf::BodyDescription& body = told[i].body;
-    text += fmt::format("{}from {:.2f} s {:g} kg, {}, holding {}", i == 0 ? "" : "; ",
-                        std::max(0.0, trial.SecsOf(told[i].stamp_nanos)), body.mass_kg,
-                        Name(body.sex), HandsText(told[i].hands));
+    text += fmt::format(
+        "{}from {:.2f} s {:g} kg{}, {}, {}", i == 0 ? "" : "; ", SecsAt(trial, told[i]),
+        body.mass_kg, body.mass_is_assumed ? " (assumed)" : "", Name(body.sex),
+        HandsAreUnknown(told[i]) ? "hand load unknown" : "holding " + HandsText(told[i].hands));
   }
   return text + (told.size() > kMostNamed ? "; and more." : ".");
 }
-
-const HandLoad& HandsOf(const LoadTrial& trial) { return trial.newest().forces.stated_hand_load; }
 
 std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const PersonModel& model = *trial.newest().model;
   const urdf::BodyDescription& body = model.description;
   const loads::LoadSettings& settings = context.scene.loads;
   std::vector<Fact> facts;
-  facts.push_back({"sex", Name(body.sex), body.sex_is_assumed});
-  facts.push_back({"mass", fmt::format("{:g} kg", body.mass_kg), body.mass_is_assumed});
+  facts.push_back(FactOver(
+      trial, "sex", [](const auto& told) { return std::string(Name(told.body.sex)); },
+      [](const auto& told) { return told.body.sex_is_assumed; }));
+  facts.push_back(FactOver(
+      trial, "mass", [](const auto& told) { return fmt::format("{:g} kg", told.body.mass_kg); },
+      [](const auto& told) { return told.body.mass_is_assumed; }));
   facts.push_back({"stature", StatureText(model),
                    !model.lengths_are_measured && context.scene.height_is_assumed});
   if (!body.added_masses.empty()) {
     facts.push_back({"added mass", AddedMassText(body), false});
   }
   facts.push_back({"body table", urdf::Name(body.table), false});
-  const auto [right_secs, left_secs] = trial.measured_hand_secs();
-  const HandLoad& hands = HandsOf(trial);
-  const bool is_only_measured = !hands.is_known && right_secs + left_secs > 0;
-  facts.push_back({"hand load", is_only_measured ? "as measured" : HandsText(hands),
-                   !hands.is_known && !is_only_measured});
+  facts.push_back(HandLoadFact(trial));
   if (context.scene.wrenches) {
     facts.push_back({"measured", MeasuredText(trial, context.scene.wrenches->path), false});
   }

@@ -34,9 +34,6 @@ struct Fact {
   bool is_assumed = false;
 };
 
-/// Hand loads as they were set at the end of the trial: by an option, or as the recording says.
-const HandLoad& HandsOf(const LoadTrial& trial);
-
 /// "Body mass and hand load changed during the recording: from 0.00 s 90 kg …"; "": they did not.
 std::string ToldText(const LoadTrial& trial);
 

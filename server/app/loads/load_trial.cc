@@ -71,6 +71,8 @@ void LoadTrial::KeepTold(const PersonState& person) {
   if (!told_.empty()) {
     const Told& last = told_.back();
     const bool is_same = last.body.mass_kg == body.mass_kg && last.body.sex == body.sex &&
+                         last.body.mass_is_assumed == body.mass_is_assumed &&
+                         last.body.sex_is_assumed == body.sex_is_assumed &&
                          last.hands.is_known == hands.is_known &&
                          last.hands.mass_kg == hands.mass_kg && last.hands.both_kg == hands.both_kg;
     if (is_same || told_.size() >= kMostTold) return;

@@ -34,9 +34,15 @@ const char* OrdinalOf(loads::Percentile percentile) {
 }
 
 // A population stands for the person until a factor or another percentile was chosen.
-Fact StrengthFact(const loads::Strength& strength, urdf::Sex sex) {
-  std::string value = fmt::format("{} percentile of {}", OrdinalOf(strength.percentile),
-                                  sex == urdf::Sex::kMale ? "men" : "women");
+Fact StrengthFact(const loads::Strength& strength, const std::vector<LoadTrial::Told>& told) {
+  const auto is_male = [](const LoadTrial::Told& each) {
+    return each.body.sex == urdf::Sex::kMale;
+  };
+  const bool has_men = std::any_of(told.begin(), told.end(), is_male);
+  const bool has_women = !std::all_of(told.begin(), told.end(), is_male);
+  std::string value =
+      fmt::format("{} percentile of {}{}{}", OrdinalOf(strength.percentile), has_men ? "men" : "",
+                  has_men && has_women ? " and of " : "", has_women ? "women" : "");
   if (strength.factor != 1) value += fmt::format(" × {:g}", strength.factor);
   return {"strength", std::move(value),
           strength.factor == 1 && strength.percentile == loads::Percentile::k50};
@@ -146,8 +152,11 @@ std::vector<Fact> HeadFactsOf(const LoadTrial& trial, const TrialContext& contex
     }
     facts.push_back(std::move(fact));
   }
-  if (HoldsAtGrip(HandsOf(trial))) facts.push_back({"held", "at the grip", true});
-  facts.push_back(StrengthFact(settings.strength, trial.newest().model->description.sex));
+  const bool holds_at_grip =
+      std::any_of(trial.told().begin(), trial.told().end(),
+                  [](const LoadTrial::Told& told) { return HoldsAtGrip(told.hands); });
+  if (holds_at_grip) facts.push_back({"held", "at the grip", true});
+  facts.push_back(StrengthFact(settings.strength, trial.told()));
   facts.push_back({"floor", FloorText(trial, context.scene.floor_z.has_value()), false});
   facts.push_back({"ratio",
                    fmt::format("{}, {}", RatioText(trial.newest().forces.metric),

@@ -101,11 +101,18 @@ std::vector<Variation> VariationsOf(const SceneOptions& scene, bool may_be_told)
   return variations;
 }
 
+void StatedKg::Add(bool is_known, double kg) {
+  is_known_ = is_known_ || is_known;
+  least_ = std::min(least_, kg);
+  most_ = std::max(most_, kg);
+}
+
 void LoadTally::Add(const PersonState& person) {
   ++row_.samples;
-  has_mass_ = !person.model->description.mass_is_assumed;
-  mass_kg_ = person.model->description.mass_kg;
-  hands_ = person.forces.stated_hand_load;
+  const urdf::BodyDescription& body = person.model->description;
+  mass_.Add(!body.mass_is_assumed, body.mass_kg);
+  const HandLoad& hands = person.forces.stated_hand_load;
+  hand_load_.Add(hands.is_known, hands.mass_kg[0] + hands.mass_kg[1] + hands.both_kg);
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
     const JointLoad& load = person.loads[i];
     if (load.band == LoadClass::kUnknown) continue;
@@ -162,18 +169,21 @@ void Sensitivity::Add(const SceneState& scene, Run& run) const {
 
 std::string Sensitivity::LabelOf(const Run& run, const LoadTally& as_computed,
                                  const LoadTally& varied) const {
-  const auto with_share = [&](const char* what, double kg) {
-    return fmt::format("{} {:.4g} kg ({}{:.0f} %)", what, kg, run.factor < 1 ? "−" : "+",
-                       100 * std::abs(run.factor - 1));
+  const auto with_share = [&](const char* what, const StatedKg& stated) {
+    const std::string share =
+        fmt::format("{}{:.0f} %", run.factor < 1 ? "−" : "+", 100 * std::abs(run.factor - 1));
+    if (stated.changes()) return fmt::format("{} ({})", what, share);
+    return fmt::format("{} {:.4g} kg ({})", what, stated.most(), share);
   };
   switch (run.of) {
     case Variation::Of::kMass:
-      if (mass_is_option_ || !as_computed.has_mass()) return run.label;
-      return with_share("mass", varied.mass_kg());
+      if (mass_is_option_ || !as_computed.mass().is_known()) return run.label;
+      return with_share("mass", varied.mass());
     case Variation::Of::kHandLoad:
       if (hand_load_is_option_) return run.label;
-      return as_computed.hand_load_kg() > 0 ? with_share("hand load", varied.hand_load_kg()) : "";
-    case Variation::Of::kUnknownHandLoad: return as_computed.has_hand_load() ? "" : run.label;
+      return as_computed.hand_load().most() > 0 ? with_share("hand load", varied.hand_load()) : "";
+    case Variation::Of::kUnknownHandLoad:
+      return as_computed.hand_load().is_known() ? "" : run.label;
     case Variation::Of::kOther: break;
   }
   return run.label;

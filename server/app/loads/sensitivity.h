@@ -48,23 +48,32 @@ struct SensitivityRow {
                                                            // those above 3400 N
 };
 
+/// What was known of a mass over a trial, by an option or by what was told.
+class StatedKg {
+ public:
+  void Add(bool is_known, double kg);
+
+  bool is_known() const { return is_known_; }  // at some time
+  bool changes() const { return least_ != most_; }
+  double most() const { return most_; }  // kg
+
+ private:
+  bool is_known_ = false;
+  double least_ = std::numeric_limits<double>::infinity(), most_ = 0;
+};
+
 /// Counts the samples of one person.
 class LoadTally {
  public:
   void Add(const PersonState& person);
   SensitivityRow Row(std::string label) const;
 
-  /// Of the newest sample: whether they are known, and by an option or by what was told.
-  bool has_mass() const { return has_mass_; }
-  bool has_hand_load() const { return hands_.is_known; }
-  double mass_kg() const { return mass_kg_; }
-  double hand_load_kg() const { return hands_.mass_kg[0] + hands_.mass_kg[1] + hands_.both_kg; }
+  const StatedKg& mass() const { return mass_; }
+  const StatedKg& hand_load() const { return hand_load_; }
 
  private:
   SensitivityRow row_;
-  bool has_mass_ = false;
-  double mass_kg_ = 0;
-  HandLoad hands_;
+  StatedKg mass_, hand_load_;
   std::vector<float> low_back_ratios_;
 };
 

@@ -29,6 +29,11 @@ std::string NameOf(const SceneState* state, int character) {
   return person != nullptr ? NameOf(*person) : std::to_string(character);
 }
 
+HandLoad StatedHandLoadOf(const SceneState* state, int character) {
+  const PersonState* const person = FindPerson(state, character);
+  return person != nullptr ? person->forces.stated_hand_load : HandLoad();
+}
+
 void NoteChange(OperatorLog& log, std::string_view role, const PersonState& person,
                 const PersonChange& stated, const PersonChange& change) {
   const PersonModel& model = *person.model;

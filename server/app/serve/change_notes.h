@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/hand_load.h"
 #include "core/person_change.h"
 #include "core/scene_state.h"
 #include "server/app/serve/operator_log.h"
@@ -19,6 +20,8 @@ const PersonState* FindPerson(const SceneState* state, int character);
 std::string NameOf(const PersonState& person);
 /// Of one who may be away.
 std::string NameOf(const SceneState* state, int character);
+/// Hand load that counts for a person of `state`; unknown where it has none. May be null.
+HandLoad StatedHandLoadOf(const SceneState* state, int character);
 
 /// "ros changed mass of Ben: 80 kg → 95 kg", a line for each. `stated`: what was changed before.
 void NoteChange(OperatorLog& log, std::string_view role, const PersonState& person,

@@ -268,12 +268,16 @@ ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& lim
 
 // As marks call a person.
 void ControlDesk::OnHandLoad(int character, const HandLoad& load, http::Role role) {
-  held_.OnOrder(character, NameOf(parts_.states.Get().get(), character), load, http::Name(role));
+  const auto state = parts_.states.Get();
+  held_.OnOrder(character, NameOf(state.get(), character), load, http::Name(role),
+                StatedHandLoadOf(state.get(), character));
   status_due_nanos_ = 0;
 }
 
 void ControlDesk::OnRosHandLoad(int character, const HandLoad& load, std::int64_t now_nanos) {
-  held_.OnRos(character, NameOf(parts_.states.Get().get(), character), load, now_nanos);
+  const auto state = parts_.states.Get();
+  held_.OnRos(character, NameOf(state.get(), character), load, now_nanos,
+              StatedHandLoadOf(state.get(), character));
 }
 
 void ControlDesk::OnCamera(const std::string& before, const std::string& after,

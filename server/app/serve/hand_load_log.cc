@@ -23,6 +23,12 @@ HandLoad HandLoadLog::Held(int character) const {
   return held != held_.end() ? held->second.load : first_;
 }
 
+// An order takes precedence over what the node of the suit was told, and that over nothing.
+HandLoad HandLoadLog::Before(int character, const HandLoad& stated) const {
+  const bool was_set_here = held_.count(character) > 0 || first_.is_known;
+  return was_set_here || !stated.is_known ? Held(character) : stated;
+}
+
 HandLoad HandLoadLog::Of(int character) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return Held(character);
@@ -34,22 +40,22 @@ std::map<int, HeldLoad> HandLoadLog::all() const {
 }
 
 void HandLoadLog::OnOrder(int character, const std::string& name, const HandLoad& load,
-                          std::string_view role) {
+                          std::string_view role, const HandLoad& stated) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto waiting = waiting_.find(character);
   if (waiting != waiting_.end()) {
     MarkRos(character, waiting->second);
     waiting->second.marked = load;
   }
-  log_.Note(role, "hand load of " + name, TextOf(Held(character)), TextOf(load));
+  log_.Note(role, "hand load of " + name, TextOf(Before(character, stated)), TextOf(load));
   held_[character] = {load, WallNanos() / 1000, std::string(role)};
 }
 
 void HandLoadLog::OnRos(int character, const std::string& name, const HandLoad& load,
-                        std::int64_t now_nanos) {
+                        std::int64_t now_nanos, const HandLoad& stated) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (held_.size() >= kMostPeople && held_.count(character) == 0) return;
-  const HandLoad before = Held(character);
+  const HandLoad before = Before(character, stated);
   Waiting& waiting = waiting_.try_emplace(character, Waiting{name, before, {}, 0}).first->second;
   waiting.name = name;
   held_[character] = {load, WallNanos() / 1000, "ROS"};

@@ -29,10 +29,13 @@ class HandLoadLog {
   /// By character; without people who hold what they held at the start.
   [[nodiscard]] std::map<int, HeldLoad> all() const;
 
-  /// `name`: of the person, for the mark.
-  void OnOrder(int character, const std::string& name, const HandLoad& load, std::string_view role);
+  /// `name`: of the person, for the mark. `stated`: what counts for them now, perhaps as the node
+  /// of the suit was told.
+  void OnOrder(int character, const std::string& name, const HandLoad& load, std::string_view role,
+               const HandLoad& stated = HandLoad());
   /// A load that came over ROS at `now_nanos` of the monotonic clock.
-  void OnRos(int character, const std::string& name, const HandLoad& load, std::int64_t now_nanos);
+  void OnRos(int character, const std::string& name, const HandLoad& load, std::int64_t now_nanos,
+             const HandLoad& stated = HandLoad());
   /// Marks what is due. Call it many times a second, with the clock of OnRos.
   void OnTime(std::int64_t now_nanos);
   /// Marks what waits, before the end.
@@ -49,6 +52,7 @@ class HandLoadLog {
 
   // Called with mutex_ locked.
   HandLoad Held(int character) const;
+  HandLoad Before(int character, const HandLoad& stated) const;
   void MarkIfDue(int character, Waiting& waiting, std::int64_t now_nanos);
   void MarkRos(int character, Waiting& waiting);
 

@@ -305,7 +305,9 @@ void Server::Run() {
       [this](int character, const HandLoad& load) {
         const std::int64_t now = source_->now_nanos();
         if (desk_) return desk_->OnRosHandLoad(character, load, now);
-        bridge_loads_->OnRos(character, NameOf(states_.Get().get(), character), load, now);
+        const auto state = states_.Get();
+        bridge_loads_->OnRos(character, NameOf(state.get(), character), load, now,
+                             StatedHandLoadOf(state.get(), character));
       },
       [this](const std::string& text) { ros_news_->OnMark(text); },
       [this] { return source_->now_nanos(); });

@@ -53,11 +53,6 @@ std::set<std::string> LabelsOf(const Study& study) {
   return labels;
 }
 
-std::string OptionOf(const StudyTrial& trial, const char* name) {
-  const auto found = trial.options.find(name);
-  return found == trial.options.end() ? "" : found->second;
-}
-
 class Rows {
  public:
   Rows(const Study& study, std::string& out) : labels_(LabelsOf(study)), out_(out) {}
@@ -109,10 +104,10 @@ class Rows {
     }
     row.Whole(trial.loads->number);
     row.Text(trial.loads->name);
-    row.Text(OptionOf(trial, "sex"));
+    row.Text(trial.loads->sex);
     row.Number(trial.loads->mass_kg);
     row.Number(trial.loads->height_m);
-    row.Text(OptionOf(trial, "hand_load"));
+    row.Text(trial.loads->hand_load);
     row.Whole(static_cast<long long>(trial.loads->samples));
     row.Number(trial.loads->secs);
   }

@@ -74,9 +74,8 @@ Json TrialJson(const StudyTrial& trial, const fs::path& folder) {
     return out;
   }
   const PersonLoads& person = *trial.loads;
-  const auto sex = trial.options.find("sex"), hands = trial.options.find("hand_load");
-  if (sex != trial.options.end()) out["sex"] = sex->second;
-  if (hands != trial.options.end()) out["hands"] = hands->second;
+  if (!person.sex.empty()) out["sex"] = person.sex;
+  if (!person.hand_load.empty()) out["hands"] = person.hand_load;
   out["mass"] = person.mass_kg;
   out["secs"] = Scaled(person.secs, 100);
   out["samples"] = person.samples;

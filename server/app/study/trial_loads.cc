@@ -38,6 +38,17 @@ std::string TextIn(const json& from, const char* name) {
   return value.is_null() ? "" : value.get<std::string>();
 }
 
+// What is said of the trial under `name`, if it was not assumed.
+std::string StatedIn(const json& person, const char* name) {
+  const auto facts = person.find("facts");
+  if (facts == person.end()) return "";
+  for (const json& fact : *facts) {
+    if (TextIn(fact, "name") != name) continue;
+    return fact.at("is_assumed").get<bool>() ? "" : TextIn(fact, "value");
+  }
+  return "";
+}
+
 JointLoads JointFrom(const json& from) {
   JointLoads joint;
   for (std::size_t i = 0; i < joint.samples.size(); ++i) {
@@ -66,6 +77,8 @@ PersonLoads PersonFrom(const json& from) {
   person.secs = NumberIn(from, "seconds");
   person.mass_kg = NumberIn(from, "mass_kg");
   person.height_m = NumberIn(from, "height_m");
+  person.sex = StatedIn(from, "sex");
+  person.hand_load = StatedIn(from, "hand load");
   person.joints.resize(urdf::kScoredJointCount);
   for (const json& each : from.at("exposure")) {
     const auto name = each.at("joint").get<std::string>();
@@ -94,7 +107,12 @@ TrialLoads TrialFrom(const json& from) {
       trial.options[name] = value.is_string() ? value.get<std::string>() : JsonText(value);
     }
   }
-  for (const json& each : from.at("people")) trial.people.push_back(PersonFrom(each));
+  const auto sex = trial.options.find("sex"), hand_load = trial.options.find("hand_load");
+  for (const json& each : from.at("people")) {
+    PersonLoads& person = trial.people.emplace_back(PersonFrom(each));
+    if (sex != trial.options.end()) person.sex = sex->second;
+    if (hand_load != trial.options.end()) person.hand_load = hand_load->second;
+  }
   return trial;
 }
 

@@ -39,6 +39,8 @@ struct PersonLoads {
   std::string name;  // "": unknown
   std::uint64_t samples = 0;
   double secs = 0, mass_kg = 0, height_m = 0;
+  /// As the option was given, or as the recording says ("1 kg right"); "": assumed.
+  std::string sex, hand_load;
   std::vector<JointLoads> joints;  // in the order of ScoredName()
   double compression_most_N = std::numeric_limits<double>::quiet_NaN();  // at L5/S1
   double compression_mean_N = compression_most_N;

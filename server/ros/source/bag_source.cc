@@ -281,7 +281,7 @@ void BagSource::ReadNames() {
       const bool is_of_beginning = now - (end - kNamesNanos) < kTellEveryNanos + kJustNanos;
       if (told_first.insert(message.connection).second && is_of_beginning) {
         // It is counted when its turn comes.
-        static_cast<void>(told_people_.Take(message.bytes, now));
+        static_cast<void>(told_people_.Take(message.bytes));
       }
       continue;
     }
@@ -614,8 +614,7 @@ ToldPeople::Key BagSource::KeyOf(int character) const {
 
 void BagSource::TakePeople(const BagMessage& message) {
   const bool is_whole = message.bytes.size() == message.size;
-  if (!is_whole || !told_people_.Take(message.bytes, message.recorded_nanos))
-    ++counters_.rejected[kUnreadablePeople];
+  if (!is_whole || !told_people_.Take(message.bytes)) ++counters_.rejected[kUnreadablePeople];
 }
 
 SourceCounters BagSource::counters() const {

@@ -213,7 +213,7 @@ class GraphSource : public Source {
     }
     const std::string sum = Said(event, "md5sum");
     if (Is<kinescope_ros::PersonArray>(sum)) {
-      if (!told_people_.Take(raw.bytes, MonotonicNanos())) Reject(index, kUnreadableMessage);
+      if (!told_people_.Take(raw.bytes)) Reject(index, kUnreadableMessage);
       return;
     }
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {

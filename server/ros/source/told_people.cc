@@ -12,23 +12,28 @@
 #include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
-bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos) {
+
+bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes) {
   if (!ReadBounded(bytes.data(), bytes.size(), message_)) return false;
+  ++messages_;
   for (const kinescope_ros::Person& person : message_.people) {
     auto known = std::find_if(told_.begin(), told_.end(), [&](const Told& told) {
       return told.message.pelvis_frame == person.pelvis_frame &&
              told.message.topics == person.topics;
     });
-    if (known != told_.end()) known->heard_nanos = now_nanos;
+    if (known != told_.end()) {
+      known->heard_nanos = newest_nanos_;
+      known->heard_number = messages_;
+    }
     if (known != told_.end() && !known->is_gone && AreEqual(known->message, person)) continue;
     if (known == told_.end()) {
       known = told_.size() < kMostPeople
                   ? told_.insert(told_.end(), Told())
                   : std::min_element(told_.begin(), told_.end(), [](const Told& a, const Told& b) {
-                      return a.heard_nanos < b.heard_nanos;
+                      return a.heard_number < b.heard_number;
                     });
     }
-    *known = {person, ++revisions_, now_nanos, false};
+    *known = {person, ++revisions_, newest_nanos_, messages_, false};
   }
   return true;
 }
@@ -42,6 +47,7 @@ const ToldPeople::Told* ToldPeople::Find(const Person& of) {
     const bool is_meant = (!key.pelvis_frame.empty() && person.pelvis_frame == key.pelvis_frame) ||
                           (!key.topics.empty() && person.topics == key.topics);
     if (!is_meant) continue;
+    told.heard_nanos = std::min(told.heard_nanos, of.newest_nanos);  // a clock may be set back
     const std::int64_t silent = of.newest_nanos - std::max(told.heard_nanos, of.since_nanos);
     told.is_gone = told.is_gone || silent > kForgetAfterNanos;
     if (!told.is_gone && (found == nullptr || told.revision > found->revision)) found = &told;
@@ -98,9 +104,12 @@ void ToldPeople::OnSample(const BodySample& sample) {
   Person& person = people_[sample.character];
   person.character.id = sample.character;
   constexpr std::int64_t kPauseNanos = kNanosPerSecond;
-  const std::int64_t now = sample.arrival_nanos;
-  if (now - std::exchange(person.newest_nanos, now) > kPauseNanos) person.since_nanos = now;
-  const bool is_due = now - person.looked_nanos > kTellEveryNanos;
+  const bool is_live = sample.arrival_nanos != 0;
+  const std::int64_t now = is_live ? sample.stamp_nanos : 0;
+  newest_nanos_ = now;
+  const std::int64_t step = now - std::exchange(person.newest_nanos, now);
+  if (std::abs(step) > kPauseNanos) person.since_nanos = now;  // or its clock was set
+  const bool is_due = std::abs(now - person.looked_nanos) > kTellEveryNanos;
   if (is_due) person.looked_nanos = now;
   if (std::exchange(person.looked, revisions_) != revisions_ || is_due) {
     const Told* const told = Find(person);

@@ -1,7 +1,7 @@
 /// Adds to people what the node of their suit was told about them, beside the motion: as it tells
 /// other nodes, and recorders, on kPeopleTopic. The latest counts. Of a graph, a node that has not
-/// been heard for kForgetAfterNanos, while the person's samples came, does not count any more.
-/// Memory is limited; one thread.
+/// been heard for kForgetAfterNanos of the person's samples, by their stamps, does not count any
+/// more: a bag may be replayed in slow motion. Memory is limited; one thread.
 #pragma once
 
 #include <kinescope/PersonArray.h>
@@ -34,9 +34,8 @@ class ToldPeople : public SampleSink {
   /// Where people and samples go; not null while some come.
   void SetSink(SampleSink* sink) { sink_ = sink; }
 
-  /// Takes the bytes of a kinescope/PersonArray. `now_nanos`: clock of BodySample::arrival_nanos.
-  /// False: they are none.
-  [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos);
+  /// Takes the bytes of a kinescope/PersonArray. False: they are none.
+  [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes);
 
   bool is_empty() const { return told_.empty(); }
 
@@ -46,18 +45,19 @@ class ToldPeople : public SampleSink {
  private:
   struct Told {
     kinescope_ros::Person message;
-    std::uint64_t revision = 0;  // increases with every change
-    std::int64_t heard_nanos = 0;
-    bool is_gone = false;  // the node that told it, until it is heard again
+    std::uint64_t revision = 0;      // increases with every change
+    std::int64_t heard_nanos = 0;    // stamp of the newest sample then, of any person
+    std::uint64_t heard_number = 0;  // increases with every message
+    bool is_gone = false;            // the node that told it, until it is heard again
   };
   struct Person {
     Character character;         // as the source described it
     std::uint64_t revision = 0;  // of what was passed on; 0: nothing was
     std::uint64_t looked = 0;    // revisions_ when that was looked for
     bool has_something = false;  // in what was passed on
-    // Arrivals, of a graph; 0: none, or of a recording.
+    // Stamps of samples of a graph; 0: none, or of a recording.
     std::int64_t newest_nanos = 0, looked_nanos = 0;
-    std::int64_t since_nanos = 0;  // samples have come without a pause
+    std::int64_t since_nanos = 0;  // there has been no pause
   };
 
   const Told* Find(const Person& person);
@@ -68,9 +68,10 @@ class ToldPeople : public SampleSink {
   SampleSink* sink_ = nullptr;
   kinescope_ros::PersonArray message_;  // reused, keeps its memory
   std::vector<Told> told_;
-  std::uint64_t revisions_ = 0;
-  int said_ = 0;                  // lines of the log
-  std::map<int, Person> people_;  // by character; as many as the source has
+  std::uint64_t revisions_ = 0, messages_ = 0;
+  std::int64_t newest_nanos_ = 0;  // stamp of the newest sample
+  int said_ = 0;                   // lines of the log
+  std::map<int, Person> people_;   // by character; as many as the source has
 };
 
 }  // namespace kinescope::ros_bridge

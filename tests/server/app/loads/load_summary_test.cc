@@ -103,8 +103,24 @@ TEST(LoadSummary, SaysWhatChangedInTheRecording) {
       "10 kg both hands; from 1.00 s 90 kg, male, holding 4 kg both hands; from 1.50 s 60 kg, "
       "male, holding 4 kg both hands.");
   EXPECT_THAT(NotesOf(trial, TrialContext()), Contains(ToldText(trial)));
-  EXPECT_EQ(FactTexts(trial, TrialContext()).at("hand load"), "4 kg both hands");
-  EXPECT_EQ(FactTexts(trial, TrialContext()).at("mass"), "60 kg");
+  EXPECT_EQ(FactTexts(trial, TrialContext()).at("hand load"),
+            "10 kg both hands; from 1.00 s 4 kg both hands");
+  EXPECT_EQ(FactTexts(trial, TrialContext()).at("mass"), "90 kg; from 1.50 s 60 kg");
+}
+
+TEST(LoadSummary, TellsAHandLoadThatIsUnknownFromOneThatIsEmpty) {
+  LoadTrial trial(false, 0);
+  for (const auto& [secs, hands] :
+       {std::pair(0.0, HandLoad()), std::pair(1.0, HandLoad{true, {0, 0}, 10}),
+        std::pair(2.0, HandLoad{true, {0, 0}, 0})}) {
+    SceneState scene = SceneWithRatio(secs, 0.2);
+    scene.people[0].forces.stated_hand_load = hands;
+    AddTo(trial, scene);
+  }
+  EXPECT_EQ(FactTexts(trial, TrialContext()).at("hand load"),
+            "nothing (assumed); from 1.00 s 10 kg both hands; from 2.00 s nothing");
+  EXPECT_THAT(ToldText(trial),
+              HasSubstr("from 0.00 s 75 kg (assumed), male, hand load unknown; from 1.00 s"));
 }
 
 TEST(LoadSummary, NamesTheLoadMode) {

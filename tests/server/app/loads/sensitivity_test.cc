@@ -67,6 +67,18 @@ TEST(Sensitivity, VariesWhatARecordingMaySay) {
   EXPECT_EQ(VariationsOf(scene, true)[2].label, "hand load 18 kg (−2 kg)") << "an option counts";
 }
 
+TEST(Sensitivity, KnowsOfAMassThatWasToldForAPartOfTheTrial) {
+  StatedKg kg;
+  kg.Add(false, 0);
+  EXPECT_FALSE(kg.is_known());
+  EXPECT_FALSE(kg.changes());
+  kg.Add(true, 10);
+  kg.Add(true, 0);
+  EXPECT_TRUE(kg.is_known());
+  EXPECT_TRUE(kg.changes());
+  EXPECT_EQ(kg.most(), 10);
+}
+
 TEST(Sensitivity, ChangesWhatTheOptionsHaveAlreadyChanged) {
   SceneOptions scene;
   scene.body.table = urdf::BodyTable::kWinter;

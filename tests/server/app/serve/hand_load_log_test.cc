@@ -51,6 +51,15 @@ TEST_F(HandLoadMarks, OfRosAreMarkedAsThoseOfOperatorsAre) {
   EXPECT_EQ(held_.Of(0).mass_kg[urdf::kRight], 7);
 }
 
+TEST_F(HandLoadMarks, HaveWhatTheNodeOfTheSuitWasToldAsTheValueBefore) {
+  held_.OnRos(0, "Ann", InRightHand(9), kNanosPerSecond, InRightHand(2));
+  held_.OnOrder(1, "Ben", InRightHand(4), "operator", InRightHand(3));
+  held_.OnOrder(1, "Ben", InRightHand(5), "operator", InRightHand(3));
+  EXPECT_THAT(marks(), ElementsAre("ros: hand load of Ann: 2 kg right → 9 kg right",
+                                   "operator: hand load of Ben: 3 kg right → 4 kg right",
+                                   "operator: hand load of Ben: 4 kg right → 5 kg right"));
+}
+
 TEST_F(HandLoadMarks, ThatComManyTimesASecondAreMarkedOnceASecondAndTheLastOneIs) {
   for (int i = 1; i <= 250; ++i)
     held_.OnRos(0, "Ann", InRightHand(i), kNanosPerSecond + i * kNanosPerSecond / 100);

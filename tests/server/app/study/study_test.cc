@@ -52,6 +52,9 @@ json LoadsWith(int high) {
          {"seconds", 2.5},
          {"mass_kg", 80},
          {"height_m", 1.8},
+         {"facts",
+          {{{"name", "sex"}, {"value", "female"}, {"is_assumed", false}},
+           {{"name", "hand load"}, {"value", "nothing"}, {"is_assumed", true}}}},
          {"exposure", exposure},
          {"l5_s1_compression_N",
           {{"mean", 1000}, {"most", 3500}, {"above", {{{"limit", 3400}, {"seconds", 0.25}}}}}}}}}};
@@ -97,7 +100,12 @@ TEST_F(StudyFiles, LoadsAreReadFromTheEndOfAFileOrFromAnotherProgramsText) {
     EXPECT_TRUE(std::isnan(person.joints[3].peak_moment_Nm));
     EXPECT_EQ(person.compression_most_N, 3500);
     EXPECT_EQ(person.compression_above_secs, 0.25);
+    EXPECT_EQ(person.sex, "female");
+    EXPECT_EQ(person.hand_load, "") << "it was assumed";
   }
+  json with_option = LoadsWith(20);
+  with_option["options"]["hand_load"] = "both:5";
+  EXPECT_EQ(ReadTrialLoads(Write("c.json", with_option.dump())).people[0].hand_load, "both:5");
 }
 
 TEST_F(StudyFiles, WhatIsNoFileOfLoadsIsNamed) {

@@ -42,11 +42,12 @@ class ToldPeopleTest : public ::testing::Test {
 
   void Sample() {
     BodySample sample;
-    sample.arrival_nanos = now_;
+    sample.arrival_nanos = 7;
+    sample.stamp_nanos = now_;
     people_.OnSample(sample);
   }
   bool Take(const std::vector<kinescope_ros::Person>& people) {
-    return people_.Take(BytesOf(Told(people)), now_);
+    return people_.Take(BytesOf(Told(people)));
   }
 
   std::int64_t now_ = kNanosPerSecond;
@@ -104,8 +105,8 @@ TEST_F(ToldPeopleTest, NeitherTakeWhatIsNoMessageNorGrowWithoutLimit) {
   }
   std::vector<std::uint8_t> bytes = BytesOf(Told({Told("anna", 80, 0)}));
   bytes.pop_back();
-  EXPECT_FALSE(people_.Take(bytes, now_));
-  EXPECT_FALSE(people_.Take({255, 255, 255, 255}, now_));
+  EXPECT_FALSE(people_.Take(bytes));
+  EXPECT_FALSE(people_.Take({255, 255, 255, 255}));
   kinescope_ros::Person odd = Told("anna", 70, 0);
   odd.sex = 7;
   ASSERT_TRUE(Take({odd}));
@@ -139,6 +140,23 @@ TEST_F(ToldPeopleTest, AreForgottenWithTheNodeThatTold) {
   go_on(8, {});
   EXPECT_FALSE(sink_.characters.back().told.mass_kg);
   EXPECT_FALSE(sink_.characters.back().told_hand_load.is_known);
+}
+
+// A bag that is replayed, and a clock that is set, are no reason: all here counts by stamps.
+TEST_F(ToldPeopleTest, AreKeptWhenTheClockOfTheSamplesIsSet) {
+  people_.OnCharacter({});
+  ASSERT_TRUE(Take({Told("anna", 55, 0)}));
+  for (const double secs : {0.0, 100.0, -200.0, 0.5, 0.5}) {
+    now_ += static_cast<std::int64_t>(secs * kNanosPerSecond);
+    Sample();
+    EXPECT_EQ(sink_.characters.back().told.mass_kg, 55) << "after " << secs << " s";
+  }
+  ASSERT_EQ(sink_.characters.size(), 1U);
+  for (int n = 0; n < 12; ++n) {
+    now_ += kNanosPerSecond / 2;
+    Sample();
+  }
+  EXPECT_FALSE(sink_.characters.back().told.mass_kg) << "not heard since the clock was set back";
 }
 
 TEST(PersonMessages, HaveWhatWasToldOfAPerson) {
