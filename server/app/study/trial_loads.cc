@@ -107,11 +107,15 @@ TrialLoads TrialFrom(const json& from) {
       trial.options[name] = value.is_string() ? value.get<std::string>() : JsonText(value);
     }
   }
-  const auto sex = trial.options.find("sex"), hand_load = trial.options.find("hand_load");
+  const auto option = [&](const char* name) {
+    const auto found = trial.options.find(name);
+    return found == trial.options.end() ? std::string() : found->second;
+  };
+  const std::string sex = option("sex"), hand_load = option("hand_load");
   for (const json& each : from.at("people")) {
     PersonLoads& person = trial.people.emplace_back(PersonFrom(each));
-    if (sex != trial.options.end()) person.sex = sex->second;
-    if (hand_load != trial.options.end()) person.hand_load = hand_load->second;
+    if (!sex.empty()) person.sex = sex;
+    if (!hand_load.empty()) person.hand_load = hand_load;
   }
   return trial;
 }

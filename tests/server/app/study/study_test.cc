@@ -104,6 +104,9 @@ TEST_F(StudyFiles, LoadsAreReadFromTheEndOfAFileOrFromAnotherProgramsText) {
     EXPECT_EQ(person.hand_load, "") << "it was assumed";
   }
   json with_option = LoadsWith(20);
+  with_option["people"][0]["facts"][1]["is_assumed"] = false;
+  with_option["options"]["hand_load"] = "";
+  EXPECT_EQ(ReadTrialLoads(Write("b.json", with_option.dump())).people[0].hand_load, "nothing");
   with_option["options"]["hand_load"] = "both:5";
   EXPECT_EQ(ReadTrialLoads(Write("c.json", with_option.dump())).people[0].hand_load, "both:5");
 }
