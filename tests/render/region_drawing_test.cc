@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -26,6 +27,8 @@ std::unique_ptr<Renderer> With(const RegionSettings& regions) {
   RendererSettings settings;
   settings.regions = regions;
   settings.log = [](const std::string&) {};
+  // The first picture of a group makes a skin for each of them: half a minute of sanitized code.
+  settings.limit = std::chrono::minutes(10);
   return MakeRenderer(std::move(settings));
 }
 
