@@ -151,7 +151,7 @@ TEST_F(ToldPeopleTest, AreKeptWhenTheClockOfTheSamplesIsSet) {
     Sample();
     EXPECT_EQ(sink_.characters.back().told.mass_kg, 55) << "after " << secs << " s";
   }
-  ASSERT_EQ(sink_.characters.size(), 1U);
+  ASSERT_EQ(sink_.characters.size(), 2U) << "before and after it was told";
   for (int n = 0; n < 12; ++n) {
     now_ += kNanosPerSecond / 2;
     Sample();
