@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "core/system/clocks.h"
@@ -66,8 +65,6 @@ void Transmission::RunPaced(std::int64_t end_nanos) {
       Admit(datagram);
     }
     if (state == Feed::State::kEnded || StopRequested()) return;
-    // A receiver that woke on this core need not wait while the next sample is made.
-    std::this_thread::yield();
   }
 }
 
