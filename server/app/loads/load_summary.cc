@@ -175,7 +175,7 @@ double SecsAt(const LoadTrial& trial, const LoadTrial::Told& told) {
   return std::max(0.0, trial.SecsOf(told.stamp_nanos));
 }
 
-bool Is(const std::vector<LoadTrial::Told>& told, bool (*is)(const LoadTrial::Told&)) {
+bool AreAll(const std::vector<LoadTrial::Told>& told, bool (*is)(const LoadTrial::Told&)) {
   return std::all_of(told.begin(), told.end(), is);
 }
 
@@ -183,7 +183,7 @@ bool Is(const std::vector<LoadTrial::Told>& told, bool (*is)(const LoadTrial::To
 template <class TextOf>
 Fact FactOver(const LoadTrial& trial, const char* label, TextOf text_of,
               bool (*is_assumed)(const LoadTrial::Told&)) {
-  const bool is_all_assumed = Is(trial.told(), is_assumed);
+  const bool is_all_assumed = AreAll(trial.told(), is_assumed);
   std::string all, last;
   std::size_t named = 0;
   for (const LoadTrial::Told& told : trial.told()) {
@@ -202,7 +202,8 @@ bool HandsAreUnknown(const LoadTrial::Told& told) { return !told.hands.is_known;
 Fact HandLoadFact(const LoadTrial& trial) {
   const auto [right_secs, left_secs] = trial.measured_hand_secs();
   const bool is_measured = right_secs + left_secs > 0;
-  if (is_measured && Is(trial.told(), HandsAreUnknown)) return {"hand load", "as measured", false};
+  if (is_measured && AreAll(trial.told(), HandsAreUnknown))
+    return {"hand load", "as measured", false};
   return FactOver(
       trial, "hand load", [](const auto& told) { return HandsText(told.hands); }, HandsAreUnknown);
 }

@@ -19,6 +19,10 @@ constexpr double kVariedShare = 0.1;   // of body mass and hand loads
 constexpr double kLeastVariedKg = 1;   // of hand loads
 constexpr double kSupposedHandKg = 5;  // where the hand load is unknown
 
+double AllKg(const HandLoad& hands) {
+  return hands.mass_kg[urdf::kRight] + hands.mass_kg[urdf::kLeft] + hands.both_kg;
+}
+
 void VaryMass(const SceneOptions& scene, std::vector<Variation>& variations) {
   for (const double sign : {-1.0, 1.0}) {
     Variation varied{"", scene};
@@ -49,7 +53,7 @@ void VaryToldHands(const SceneOptions& scene, std::vector<Variation>& variations
 
 void VaryHands(const SceneOptions& scene, std::vector<Variation>& variations) {
   const HandLoad& hands = scene.loads.hands;
-  const double all_kg = hands.mass_kg[urdf::kRight] + hands.mass_kg[urdf::kLeft] + hands.both_kg;
+  const double all_kg = AllKg(hands);
   if (!hands.is_known) {
     Variation varied{fmt::format("hand load {:g} kg, both", kSupposedHandKg), scene};
     varied.scene.loads.hands.is_known = true;
@@ -112,7 +116,7 @@ void LoadTally::Add(const PersonState& person) {
   const urdf::BodyDescription& body = person.model->description;
   mass_.Add(!body.mass_is_assumed, body.mass_kg);
   const HandLoad& hands = person.forces.stated_hand_load;
-  hand_load_.Add(hands.is_known, hands.mass_kg[0] + hands.mass_kg[1] + hands.both_kg);
+  hand_load_.Add(hands.is_known, AllKg(hands));
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
     const JointLoad& load = person.loads[i];
     if (load.band == LoadClass::kUnknown) continue;
