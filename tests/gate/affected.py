@@ -1,8 +1,8 @@
 """What a change can affect: which programs Ninja would build again, and which tests start them.
 
 A program is affected if a changed file is among what it was last built from: Ninja's graph has the sources, its log of dependencies
-the headers. A test is affected if a program is that it starts; tests labelled `system` start the whole of Kinescope. Files that are
-not compiled belong to tests by OWNERS below, and to tests that have their path in the command. A changed file that nothing here
+the headers. A test is affected if its program is, or one that this depends on because it starts it; tests without a program of the
+build (scripts) that are labelled `system` start the whole of Kinescope. Files that are not compiled belong to tests by OWNERS below, and to tests that have their path in the command. A changed file that nothing here
 knows affects everything; so does a build folder that is not there yet.
 """
 import copy
@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from changes import git  # noqa: E402
 from compile_flags import TOP  # noqa: E402
 
-PRODUCT = ("bin/kinescope", "kinescope_modules")
+PROGRAM, MODULES = "bin/kinescope", "kinescope_modules"
 EVERYTHING = re.compile(r"(^|/)CMakeLists\.txt$|^cmake/|^CMakePresets\.json$|^packages\.txt$|^check$|^tests/gate/|^tests/[^/]*$|\.in$")
 OWNERS = (  # files that are not compiled -> names of tests that read them
     (r"^web/|^tests/browser/", r"web_unit|browser_.*|installation|system_test\.(Page|Golden|Dashboard|Sinks).*|ros_system_test\.(Pipeline|View).*"),
@@ -60,6 +60,7 @@ class Build:
 
     def __init__(self, folder):
         self._folder = folder
+        self._targets = {line.rsplit(": ", 1)[0] for line in self._ninja("-t", "targets", "all")}
         self._headers = {}  # object -> files that it was compiled from
         objects = None
         for line in self._ninja("-t", "deps"):
@@ -77,13 +78,14 @@ class Build:
         full = pathlib.Path(self._folder, path).resolve() if not path.startswith("/") else pathlib.Path(path)
         return full.relative_to(TOP).as_posix() if TOP in full.parents else None
 
-    def sources_of(self, *targets):
-        """Everything of ours from which the targets are built; empty if they were never built."""
-        found = set()
-        for line in self._ninja("-t", "inputs", *targets):
-            found.add(self._name(line))
-            found.update(self._headers.get(line, ()))
-        return found - {None}
+    def sources_of(self, target):
+        """Everything of ours from which the target is built, and what it starts with that; None: it was not built as a whole yet."""
+        inputs = self._ninja("-t", "inputs", target)
+        if any(line == PROGRAM or line.endswith(MODULES) for line in inputs) or target == PROGRAM:
+            inputs += self._ninja("-t", "inputs", MODULES)  # Ninja does not look behind this name; they are loaded, not linked
+        if any(line.endswith(".o") and line not in self._headers for line in inputs):
+            return None
+        return {self._name(line) for line in inputs}.union(*(self._headers.get(line, ()) for line in inputs)) - {None}
 
     def is_built(self):
         return bool(self._headers)
@@ -93,13 +95,11 @@ class Build:
         result = subprocess.run(words, capture_output=True, text=True)
         return json.loads(result.stdout)["tests"] if result.returncode == 0 else []
 
-    def program_of(self, test):
-        """The first program of this build in its command, as Ninja calls it; None: it has none."""
-        for word in test.get("command", []):
-            path = pathlib.Path(word)
-            if path.is_absolute() and self._folder in path.parents:
-                return path.relative_to(self._folder).as_posix()
-        return None
+    def programs_of(self, test):
+        """Those of this build in its command, as Ninja calls them."""
+        paths = [pathlib.Path(word) for word in test.get("command", []) if word.startswith("/")]
+        names = [path.relative_to(self._folder).as_posix() for path in paths if self._folder in path.parents]
+        return [name for name in names if name in self._targets]
 
 
 def is_system_test(test):
@@ -108,26 +108,26 @@ def is_system_test(test):
 
 
 def affected_tests(change, build):
-    """(names of tests that the change can affect, programs to build for them, all names)."""
+    """(names of tests that the change can affect, programs to build for them, names of all tests)"""
     known = {}
 
-    def hits(*targets):
-        if targets not in known:
-            sources = build.sources_of(*targets)
-            known[targets] = not sources or bool(sources & change.files)
-        return known[targets]
+    def hits(target):
+        if target not in known:
+            sources = build.sources_of(target)
+            known[target] = sources is None or bool(sources & change.files)
+        return known[target]
 
     owned = re.compile("|".join(f"(?:{pattern})" for pattern in change.owned_tests()) or "$^")
     names, programs, every = [], set(), []
     for test in build.tests():
         every.append(test["name"])
-        program = build.program_of(test)
-        is_hit = (owned.fullmatch(test["name"]) or any(name in word for word in test.get("command", []) for name in change.files)
-                  or (program is not None and hits(program)) or (is_system_test(test) and hits(*PRODUCT)))
+        of_test = build.programs_of(test) or ([PROGRAM] if is_system_test(test) else [])
+        is_hit = (owned.fullmatch(test["name"]) or any(map(hits, of_test))
+                  or any(name in word for word in test.get("command", []) for name in change.files))
         if is_hit:
             names.append(test["name"])
-            programs.add(program)
-    return names, programs - {None}, every
+            programs.update(of_test)
+    return names, programs, every
 
 
 def pattern_of(names, every):
@@ -178,7 +178,7 @@ def _narrowed(command, change):
         return None
     command = copy.deepcopy(command)
     if is_build:
-        command.words += sorted(programs | (set(PRODUCT) if preset == "dev" else set()))
+        command.words += sorted(programs | ({PROGRAM, MODULES} if preset == "dev" else set()))
     else:
         print(f"left out: {len(every) - len(names)} of {len(every)} tests of {preset}")
         command.words += ["-R", pattern_of(names, every)]
