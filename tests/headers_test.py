@@ -12,6 +12,7 @@ tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests]
 """
 import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import subprocess
@@ -254,7 +255,7 @@ def compile_all(names, closures, flags, jobs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--tests", action="store_true")
     parser.add_argument("--only", default="")
     options = parse_options(parser)

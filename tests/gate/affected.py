@@ -90,9 +90,10 @@ class Build:
     def is_built(self):
         return bool(self._headers)
 
-    def tests(self):
-        words = ["ctest", "--test-dir", self._folder, "--show-only=json-v1"]
-        result = subprocess.run(words, capture_output=True, text=True)
+    def tests(self, preset):
+        """Those that this preset of ctest has."""
+        words = ["ctest", "--preset", preset, "--show-only=json-v1"]
+        result = subprocess.run(words, capture_output=True, text=True, cwd=TOP)
         return json.loads(result.stdout)["tests"] if result.returncode == 0 else []
 
     def programs_of(self, test):
@@ -107,7 +108,7 @@ def is_system_test(test):
     return "system" in labels
 
 
-def affected_tests(change, build):
+def affected_tests(change, build, preset):
     """(names of tests that the change can affect, programs to build for them, names of all tests)"""
     known = {}
 
@@ -119,7 +120,7 @@ def affected_tests(change, build):
 
     owned = re.compile("|".join(f"(?:{pattern})" for pattern in change.owned_tests()) or "$^")
     names, programs, every = [], set(), []
-    for test in build.tests():
+    for test in build.tests(preset):
         every.append(test["name"])
         of_test = build.programs_of(test) or ([PROGRAM] if is_system_test(test) else [])
         is_hit = (owned.fullmatch(test["name"]) or any(map(hits, of_test))
@@ -173,7 +174,7 @@ def _narrowed(command, change):
     build = Build(TOP / "build" / ("dev" if preset.startswith("dev") else preset))
     if not build.is_built():
         return command
-    names, programs, every = affected_tests(change, build)
+    names, programs, every = affected_tests(change, build, preset)
     if not names:
         return None
     command = copy.deepcopy(command)

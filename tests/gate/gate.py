@@ -25,6 +25,7 @@ TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDER = TOP / "build" / "gate"
 PYTHON = "/usr/bin/python3"
 MOST_FAILURES = 10
+JOBS = len(os.sched_getaffinity(0))
 SANITIZED_PROGRAM = "dev-sanitized-program"
 
 
@@ -40,7 +41,7 @@ def build(preset, *targets):
 
 def ctest(preset, *words):
     results = FOLDER / f"{preset}.xml"
-    return Command(["ctest", "--preset", preset, "-j2", "--output-junit", results, *words], what=f"tests of {preset}", results=results)
+    return Command(["ctest", "--preset", preset, f"-j{JOBS}", "--output-junit", results, *words], what=f"tests of {preset}", results=results)
 
 
 def all_stages(quick):
