@@ -12,6 +12,7 @@ import unittest
 
 import affected
 import budget
+import changes
 import gate
 import passed
 import stage
@@ -153,6 +154,56 @@ class Since(unittest.TestCase):
     def test_an_unknown_revision_is_an_error(self):
         with self.assertRaisesRegex(affected.UnknownRevision, "--since=nowhere: unknown revision"):
             affected.Change("nowhere")
+
+
+class SinceInABuild(Rooms):
+    """A project of two rooms, each with a test, and a script that starts a program."""
+
+    FILES = {
+        "CMakeLists.txt": """cmake_minimum_required(VERSION 3.25)
+project(rooms LANGUAGES C)
+enable_testing()
+foreach(room one two)
+  add_executable(${room}_test ${room}.c)
+  add_test(NAME ${room}_test.all COMMAND ${room}_test)
+endforeach()
+add_test(NAME script COMMAND sh ${PROJECT_SOURCE_DIR}/script.sh $<TARGET_FILE:one_test>)
+""",
+        "CMakePresets.json": """{"version": 6, "configurePresets": [{"name": "dev", "generator": "Ninja", "binaryDir": "${sourceDir}/build/dev"}],
+ "testPresets": [{"name": "dev", "configurePreset": "dev"}]}""",
+        "one.c": '#include "one.h"\nint main(void) { return kOne - 1; }\n', "one.h": "enum { kOne = 1 };\n",
+        "two.c": "int main(void) { return 0; }\n", "script.sh": '"$1"\n', ".gitignore": "build\n",
+    }
+
+    def setUp(self):
+        super().setUp()
+        for name, text in self.FILES.items():
+            (self.folder / name).write_text(text)
+        for words in (["git", "init", "-q"], ["git", "add", "."],
+                      ["git", "-c", "user.name=a", "-c", "user.email=a@b", "commit", "-qm", "rooms"],
+                      ["cmake", "--preset", "dev"], ["cmake", "--build", "build/dev"]):
+            subprocess.run(words, cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        for module in (affected, changes):
+            self.addCleanup(setattr, module, "TOP", module.TOP)
+            module.TOP = self.folder.resolve()
+
+    def affected_by(self, name, text):
+        (self.folder / name).write_text(text)
+        build = affected.Build(affected.TOP / "build" / "dev")
+        return affected.affected_tests(affected.Change("HEAD"), build, "dev")[0]
+
+    def test_a_header_affects_the_tests_whose_programs_include_it_and_scripts_that_start_them(self):
+        self.assertEqual(self.affected_by("one.h", "enum { kOne = 2 };\n"), ["one_test.all", "script"])
+
+    def test_a_source_of_the_other_room_affects_its_test_alone(self):
+        self.assertEqual(self.affected_by("two.c", "int main(void) { return 1; }\n"), ["two_test.all"])
+
+    def test_a_script_affects_the_tests_that_name_it(self):
+        self.assertEqual(self.affected_by("script.sh", "exit 1\n"), ["script"])
+
+    def test_a_file_that_nothing_knows_affects_everything(self):
+        self.affected_by("table.dat", "1 2 3\n")
+        self.assertEqual(affected.Change("HEAD").for_everything, ["table.dat"])
 
 
 class Findings(unittest.TestCase):
