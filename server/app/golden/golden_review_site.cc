@@ -9,6 +9,7 @@
 #include "core/system/json_text.h"
 #include "core/system/words.h"
 #include "server/app/golden/golden_report.h"
+#include "server/app/ordered_json.h"
 #include "server/http/access.h"
 
 namespace kinescope::app {
@@ -16,7 +17,6 @@ namespace {
 
 using http::Answer;
 using http::ErrorAnswer;
-using Json = nlohmann::ordered_json;
 
 struct ReviewOrder {
   const char* name;
