@@ -236,7 +236,7 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
   return report;
 }
 
-bool Run(const InspectOptions& options) {
+bool RunInspect(const InspectOptions& options) {
   const mvn::InspectionReport report = Inspect(options);
   PrintText(stdout, *options.json ? ReportJson(report) : ReportText(report));
   return report.CanBeShown();
@@ -255,7 +255,7 @@ Command InspectCommand() {
   command.positionals = {"source"};
   command.required = {"source"};
   command.footer = "Exit code: 0 a person can be shown, 1 no person can be shown, 2 error.";
-  command.run = [values](options::OptionList&) { return Run(*values) ? 0 : 1; };
+  command.run = [values](options::OptionList&) { return RunInspect(*values) ? 0 : 1; };
   return command;
 }
 
