@@ -65,18 +65,28 @@ enough_room() {
   [ "$free" -ge "$1" ] || die "only $free MiB free in $PWD/build, $1 MiB needed: free disk space, or clone to another disk"
 }
 
-# build PRESET [TARGET...]: configures again if the presets have changed or the last configuration did not finish.
+# make_cost_meter: builds made from then on measure what each unit and each test costs (tests/gate/cost.cc).
+make_cost_meter() {
+  cost_meter=$PWD/build/cost
+  [ "$cost_meter" -nt tests/gate/cost.cc ] || clang++ -O1 -std=c++17 tests/gate/cost.cc -o "$cost_meter" || die "compiling tests/gate/cost.cc failed, see above"
+  export KINESCOPE_COST_METER=$cost_meter
+}
+
+# build PRESET [TARGET...]: configures again if the presets have changed, the last configuration did not finish, or costs are to be
+# measured. With keep_going=yes, a source that does not compile does not stop the others.
 build() {
   local preset=$1 folder=build/$1
   shift
   [ -f "$folder/.built" ] || enough_room "$(case $preset in asan) echo 2500 ;; *) echo 1000 ;; esac)"
-  if ! cmp -s CMakePresets.json "$folder/.presets"; then
+  local fresh=() meter=${KINESCOPE_COST_METER:+-DKINESCOPE_COST_METER:FILEPATH=$KINESCOPE_COST_METER}
+  cmp -s CMakePresets.json "$folder/.presets" || fresh=(--fresh)
+  if [ ${#fresh[@]} -gt 0 ] || ! { [ -z "$meter" ] || grep -qxF "${meter#-D}" "$folder/CMakeCache.txt"; }; then
     say "configuring $folder"
-    cmake --fresh --preset "$preset" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; die "configuring failed, see above"; }
+    cmake "${fresh[@]}" --preset "$preset" ${meter:+"$meter"} >"$folder.log" 2>&1 || { cat "$folder.log" >&2; die "configuring failed, see above"; }
     cp CMakePresets.json "$folder/.presets"
   fi
   say "building $preset"
-  if ! cmake --build "$folder" ${1:+--target "$@"}; then
+  if ! cmake --build "$folder" ${1:+--target "$@"} ${keep_going:+-- -k 0}; then
     enough_room 50
     die "the build failed, see above"
   fi

@@ -11,6 +11,10 @@ if(KINESCOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
     ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${KINESCOPE_CCACHE})
 endif()
+set(KINESCOPE_COST_METER "" CACHE FILEPATH "tests/gate/cost.cc as a program; ./check measures with it what each unit and each test costs")
+if(KINESCOPE_COST_METER)
+  list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${KINESCOPE_COST_METER} unit)
+endif()
 add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 # Sources of a target are compiled several at a time: reading the headers is most of their price. Off: one by one, as an editor's
 # language server likes it.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidest = 0.22, kHighest = 0.3;            // of the picture
 constexpr double kTopmost = 0.1, kTopmostBelowPlot = 0.55;  // of its height
-constexpr double kLeastHeight = 24;                         // px
+constexpr double kLeastImageHeight = 24;                    // px
 
 // "": new, or not known.
 std::string AgeOf(const CameraImage& image, const SceneState& state) {
@@ -44,7 +44,7 @@ std::vector<ImagePlace> PlacesOfImages(const OverlaySizes& sizes,
       sizes.bottom - margin - sizes.Px(kTimeCodeLine) - 1.3 * sizes.FontPx(kTitleSize) - gap;
   const double top = (has_plot ? kTopmostBelowPlot : kTopmost) * sizes.height;
   const double share = (bottom - top) / static_cast<double>(images.size()) - gap;
-  if (share < kLeastHeight) return places;
+  if (share < kLeastImageHeight) return places;
   for (const ImageSize& image : images) {
     const double highest = image.share > 0 ? share : kHighest * sizes.height;
     const double widest = image.share > 0 ? std::min(image.share * sizes.width, sizes.right())

@@ -53,9 +53,9 @@ void CheckCamera(const Camera& camera) {
 // Mesa asks for the same megabytes for every picture. Otherwise glibc gives them back each time,
 // and a twentieth of the time goes into page faults.
 void KeepFreedMemory() {
-  constexpr int kBytes = 4 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, kBytes);
-  ::mallopt(M_TRIM_THRESHOLD, kBytes);
+  constexpr int kThreshold = 4 << 20;  // bytes
+  ::mallopt(M_MMAP_THRESHOLD, kThreshold);
+  ::mallopt(M_TRIM_THRESHOLD, kThreshold);
 }
 
 void ToStderr(const std::string& line) {

@@ -15,15 +15,22 @@ def git(*words):
     return output if output is None else output.split("\0" if "-z" in words else None)
 
 
+LANDED = "tests/gate/landed"  # a commit that has passed ./check as a whole, and what came before it
+
+
 def base_commit():
-    """None if there is no history."""
-    head = git("rev-parse", "HEAD")
-    left = git("merge-base", "HEAD", "origin/main")
-    return (left if left and left != head else git("rev-parse", "HEAD~1") or [None])[0]
+    """The last commit that is known to have passed: where this branch left origin/main. In a clone whose origin/main is the change
+    itself, as that of CI, the one that the tree names. None if neither is there: then nothing is known to have passed."""
+    head, left = git("rev-parse", "HEAD"), git("merge-base", "HEAD", "origin/main")
+    if left and left != head:
+        return left[0]
+    named = (TOP / LANDED).read_text().split()
+    is_there = named and git("merge-base", "--is-ancestor", named[0], "HEAD") is not None
+    return named[0] if is_there else None
 
 
 def parse_options(parser):
-    """Its options with --since and --all. `since` is a commit, or None if there is no history."""
+    """Its options with --since and --all. `since` is a commit, or None if none is known to have passed."""
     parser.add_argument("--since", metavar="COMMIT", default=base_commit())
     parser.add_argument("--all", action="store_true")
     options = parser.parse_args()

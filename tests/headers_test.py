@@ -5,13 +5,14 @@ of each std:: name in it, instead of relying on another header.
 tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests] [--only PART_OF_A_PATH]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
   definitions of each folder; generated headers (ROS messages) must exist. Compiles the headers that differ
-  from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since.
-  Default of COMMIT: the commit where this branch left origin/main, or the last commit but one if it has not
-  left origin/main. --all: compiles all, which takes five CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
+  from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since; but for those that have
+  passed here before as they are (tests/gate/passed.py). Default of COMMIT: the last commit that is known to have passed
+  (tests/changes.py); if none is known, all are compiled. --all: compiles all, whatever has passed, which takes five CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
   Exit code 1 if an include is missing; one line per finding: header, line, problem.
 """
 import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import subprocess
@@ -20,6 +21,7 @@ import tempfile
 
 from changes import has_lost_a_name, names_changed_since, parse_options
 from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
+from gate.passed import Passed, key_of
 
 FOLDERS = ("urdf", "core", "server", "render")
 
@@ -221,18 +223,39 @@ def affected_by(changed, since, names, closures):
     return [name for name in names if name in changed or poorer & closures[name]]
 
 
+class Keys:
+    """What a header, compiled, was: its text and flags, and of the headers that it includes the lines that begin at the left, the
+    includes and declarations that it may rely on."""
+
+    def __init__(self, closures, flags):
+        self._closures, self._flags, self._lines = closures, flags, {}
+        version = subprocess.run([CLANG[0], "--version"], capture_output=True, text=True).stdout
+        self._common = key_of(version, *CLANG)
+
+    def _lines_at_left(self, name):
+        if name not in self._lines:
+            path = TOP / name
+            self._lines[name] = "\n".join(re.findall(r"^[A-Za-z#].*", path.read_text(), re.MULTILINE)) if path.is_file() else name
+        return self._lines[name]
+
+    def of(self, name):
+        flags = [word.replace(str(TOP), "") for word in flags_for(self._flags, name) or []]
+        return key_of(self._common, name, *flags, (TOP / name).read_text(), *map(self._lines_at_left, sorted(self._closures[name])))
+
+
 def compile_all(names, closures, flags, jobs):
+    """{name: findings}"""
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         hubs = Precompiled(names, closures, flags, pathlib.Path(folder))
         results = pool.map(
             lambda name: compile_alone(name, flags_for(flags, name), hubs.words_for(name)), names)
-        return [finding for findings in results for finding in findings]
+        return dict(zip(names, results))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--tests", action="store_true")
     parser.add_argument("--only", default="")
     options = parse_options(parser)
@@ -243,10 +266,15 @@ def main():
     findings = [finding for name in headers
                 for finding in missing_by_text(name, (TOP / name).read_text())]
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
-    closures = Closures()
-    if not options.all and options.since is not None:
-        alone = affected_by(names_changed_since(options.since), options.since, alone, closures)
-    findings += compile_all(alone, closures, read_flags(options.build.resolve()), options.jobs)
+    closures, flags = Closures(), read_flags(options.build.resolve())
+    keys, passed = Keys(closures, flags), Passed("headers")
+    if not options.all:
+        if options.since is not None:
+            alone = affected_by(names_changed_since(options.since), options.since, alone, closures)
+        alone = [name for name in alone if keys.of(name) not in passed]
+    found = compile_all(alone, closures, flags, options.jobs)
+    passed.add(keys.of(name) for name in alone if not found[name])
+    findings += [finding for of_header in found.values() for finding in of_header]
     print(f"{len(headers)} headers, {len(alone)} of them compiled on their own, {len(findings)} findings, "
           f"{cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
     return 1 if findings or not headers else 0

@@ -4,32 +4,35 @@
 tests/tidy_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (ROS messages)
   must exist. Checks the sources and headers of urdf, core, server and render that differ from COMMIT, and new
-  ones. Default of COMMIT: the commit where this branch left origin/main, or the last commit but one if it
-  has not left origin/main. Those of one folder are checked together, since most of the time goes to the headers of
-  libraries; that each source includes what it needs is seen by compiling it alone.
-  --all: checks every source, in the batches of the build.
+  ones, but for those that have passed here before as they are (tests/gate/passed.py). Default of COMMIT: the last commit that is known
+  to have passed (tests/changes.py); if none is known, all are checked. Those of one folder are checked together, since most of the time
+  goes to the headers of libraries; that each source includes what it needs is seen by compiling it alone.
+  --all: checks every source, whatever has passed, in the batches of the build.
   .clang-tidy lists the checks. Exit code 1 if there are findings; one line each: file, line, problem.
 """
 import argparse
 import concurrent.futures
 import json
+import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
-from changes import names_changed_since, parse_options
+from changes import git, names_changed_since, parse_options
 from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
+from gate.passed import Passed, key_of
 
 FOLDERS = ("urdf", "core", "server", "render")
-MOST_TOGETHER = 8  # files, so that both cores have something to do
+FEW, MOST_TOGETHER = 8, 40  # files in a batch: few, so that both cores have something to do, unless there are many batches
 NOT_CHECKED = {"urdf/skin/make/make_skin.cc"}  # clang-tidy reads CGAL's templates for many minutes
 
 
-def changed_since(commit):
-    """Sources and headers; a header whose source has changed too is checked through that source."""
-    files = [pathlib.PurePosixPath(name) for name in sorted(names_changed_since(commit) - NOT_CHECKED)
+def files_to_check(since):
+    """Sources and headers that differ from that commit, or all; a header whose source is among them is checked through that source."""
+    names = names_changed_since(since) if since else set(git("ls-files", "-z"))
+    files = [pathlib.PurePosixPath(name) for name in sorted(names - NOT_CHECKED)
              if name.startswith(tuple(f"{folder}/" for folder in FOLDERS))]
     sources = [file for file in files if file.suffix == ".cc"]
     return sources + [file for file in files
@@ -47,8 +50,20 @@ def tidy(words):
     return lines
 
 
+class Keys:
+    """What a file, checked, was: its text, that of its header, the flags, the checks and the checker."""
+
+    def __init__(self):
+        version = subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True).stdout
+        self._common = key_of(version, (TOP / ".clang-tidy").read_bytes(), pathlib.Path(__file__).read_bytes())
+
+    def of(self, file, flags):
+        texts = [path.read_bytes() for path in (TOP / file, (TOP / file).with_suffix(".h")) if path.is_file()]
+        return key_of(self._common, file, *[word.replace(str(TOP), "") for word in flags], *texts)
+
+
 class Batch:
-    """Changed files of one folder, which are compiled with the same flags."""
+    """Files of one folder, which are compiled with the same flags."""
 
     def __init__(self, files, flags):
         self.files, self._flags = files, ["-std=c++17", "-Wno-pragma-once-outside-header", *flags, f"-I{TOP}", "-x", "c++"]
@@ -73,14 +88,18 @@ class Batch:
         return {f"{where.replace(f'{TOP}/', '')}: on its own: {what}" for where, what in found}
 
 
-def batches_of(build, changed):
+def batches_of(build, files, passed, keys):
+    """[(batch, keys of its files)] of the files that have not passed, the largest first."""
     flags = read_flags(build)
     together = {}
-    for file in changed:
+    for file in files:
         of_file = flags_for(flags, file.as_posix()) or []
-        together.setdefault((file.parent, *of_file), []).append(file)
-    return [Batch(files[i:i + MOST_TOGETHER], key[1:]) for key, files in together.items()
-            for i in range(0, len(files), MOST_TOGETHER)]
+        if keys.of(file, of_file) not in passed:
+            together.setdefault((file.parent, *of_file), []).append(file)
+    most = FEW if sum(map(len, together.values())) <= 4 * FEW else MOST_TOGETHER
+    parts = [(files[i:i + most], key[1:]) for key, files in together.items() for i in range(0, len(files), most)]
+    parts.sort(key=lambda part: -len(part[0]))
+    return [(Batch(files, flags), [keys.of(file, flags) for file in files]) for files, flags in parts]
 
 
 def commands_for_all(build):
@@ -95,21 +114,25 @@ def commands_for_all(build):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     options = parse_options(parser)
     build = options.build.resolve()
-    if not options.all and options.since is None:
-        print("no history: no file checked; check all files with tests/tidy_test.py --all")
-        return 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool, tempfile.TemporaryDirectory() as folder:
         if options.all:
             commands = commands_for_all(build)
             findings = set().union(*pool.map(tidy, commands))
             what = f"{len(commands)} batches (all sources)"
         else:
-            batches = sorted(batches_of(build, changed_since(options.since)), key=lambda batch: -len(batch.files))
-            findings = set().union(*pool.map(lambda batch: batch.findings(folder), batches))
-            what = f"{sum(len(batch.files) for batch in batches)} files changed since {options.since[:10]}, in {len(batches)} batches"
+            passed = Passed("clang-tidy")
+            files = files_to_check(options.since)
+            batches = batches_of(build, files, passed, Keys())
+            findings = set()
+            for found, (_, keys) in zip(pool.map(lambda batch: batch[0].findings(folder), batches), batches):
+                findings |= found
+                if not found:
+                    passed.add(keys)
+            since = f"changed since {options.since[:10]}" if options.since else "in all"
+            what = f"{len(files)} files {since}, {sum(len(b.files) for b, _ in batches)} of them not passed before, in {len(batches)} batches"
     print(f"{what}: {len(findings)} findings, {cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
     return 1 if findings else 0
 

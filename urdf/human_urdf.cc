@@ -26,7 +26,7 @@ std::string Origin(const Vector3d& xyz, const Vector3d& rpy = Vector3d::Zero()) 
                      rpy.x(), rpy.y(), rpy.z());
 }
 
-std::string Inertial(const SegmentInertia& segment, double share) {
+std::string InertialXml(const SegmentInertia& segment, double share) {
   const Eigen::Matrix3d i = share * segment.inertia_about_com;
   return fmt::format(
       "    <inertial>\n      {}\n      <mass value=\"{}\"/>\n"
@@ -199,14 +199,14 @@ std::string SmallInertial(const HumanModel& human, int segment, double share,
   if (!human.mass_inside_joints) return "";
   SegmentInertia part = human.body[At(segment)];
   part.com_in_link = com;
-  return Inertial(part, share);
+  return InertialXml(part, share);
 }
 
 std::string Body(const HumanModel& human) {
   std::string text;
   for (int segment = 0; segment < kSegmentCount; ++segment) {
     text += LinkElement(LinkName(human.model_name, segment),
-                        Inertial(human.body[At(segment)], OwnShare(human, segment)) +
+                        InertialXml(human.body[At(segment)], OwnShare(human, segment)) +
                             SegmentShapes(human, segment));
   }
   for (int joint = 0; joint < kJointCount; ++joint) {

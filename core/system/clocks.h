@@ -37,5 +37,7 @@ inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 /// `nanos` in s. Meant for the difference between two readings of the same clock: a time since 1970
 /// keeps a resolution of only 0.2 us.
 constexpr double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
+/// The same in ms.
+constexpr double Millis(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-6; }
 
 }  // namespace kinescope

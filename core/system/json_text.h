@@ -28,4 +28,10 @@ Json NumberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+/// `value` as the nearest multiple of 1 / `per_unit`: short, and the same text while it changes
+/// less.
+inline double Rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
+}
+
 }  // namespace kinescope

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFill = 0.76, kMostFill = 0.85, kLeastFill = 0.65;  // of the free height or width
-constexpr double kLeastHeight = 0.9;                                 // m, that is shown
+constexpr double kLeastShownHeight = 0.9;                            // m, that is shown
 constexpr double kReach = 3;                                         // m
 constexpr double kShortWait = 2, kLongWait = 10;                     // s
 constexpr double kRegret = 10;          // s after coming nearer, in which going back was a mistake
@@ -120,7 +120,7 @@ ViewPlace PlaceFor(const ViewHull& hull, const Camera& camera, const ViewShape& 
             camera.is_orthographic() ? framed.ortho_height_m : -2 * slope * eye.z()};
   };
   const ViewPlace place = place_of(hull.balls());
-  if (place.height >= kLeastHeight) return place;
+  if (place.height >= kLeastShownHeight) return place;
   // With a ball of that size around their middle.
   std::vector<Ball> larger = hull.balls();
   Vector3d low = larger.front().center, high = low;
@@ -128,7 +128,7 @@ ViewPlace PlaceFor(const ViewHull& hull, const Camera& camera, const ViewShape& 
     low = low.cwiseMin(ball.center);
     high = high.cwiseMax(ball.center);
   }
-  larger.push_back({0.5 * (low + high), 0.5 * kFill * kLeastHeight});
+  larger.push_back({0.5 * (low + high), 0.5 * kFill * kLeastShownHeight});
   return place_of(larger);
 }
 

@@ -42,12 +42,6 @@ BackendReport Failed(std::string reason) {
   return report;
 }
 
-// The last line, where programs that give up say why.
-std::string LastLine(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
   std::size_t at = 0;
@@ -119,11 +113,11 @@ BackendReport ProbeBackend(const std::filesystem::path& program, const std::stri
   }
   if (child.signal != 0) {
     return Failed(fmt::format("the driver crashed ({}){}", ::strsignal(child.signal),
-                              child.err.empty() ? "" : ": " + LastLine(child.err)));
+                              child.err.empty() ? "" : ": " + LastLineOf(child.err)));
   }
   const json reported = ParseJson(child.out);
   if (child.exit_code != 0 || !reported.is_object() || !reported.contains("works")) {
-    return Failed(child.err.empty() ? "it exited without an error message" : LastLine(child.err));
+    return Failed(child.err.empty() ? "it exited without an error message" : LastLineOf(child.err));
   }
   BackendReport report = FromJson(reported);
   // What drivers write to stderr themselves.

@@ -6,7 +6,7 @@ namespace kinescope::app {
 
 std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-nlohmann::ordered_json ToJson(const render::Camera& camera) {
+nlohmann::ordered_json CameraJson(const render::Camera& camera) {
   return {{"position_m", XyzList(camera.position)},
           {"target_m", XyzList(camera.target)},
           {"up", XyzList(camera.up)},

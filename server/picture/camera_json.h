@@ -14,6 +14,6 @@ namespace kinescope::app {
 std::vector<double> XyzList(const Eigen::Vector3d& v);
 
 /// {"position_m", "target_m", "up", "vertical_fov_rad"}; world.
-nlohmann::ordered_json ToJson(const render::Camera& camera);
+nlohmann::ordered_json CameraJson(const render::Camera& camera);
 
 }  // namespace kinescope::app

@@ -113,4 +113,12 @@ ChildResult RunChild(const std::vector<std::string>& command, std::chrono::milli
   return result;
 }
 
+std::string LastLineOf(const std::string& messages) {
+  const std::size_t last = messages.find_last_not_of(" \r\n");
+  if (last == std::string::npos) return "";
+  const std::size_t before = messages.find_last_of('\n', last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  return messages.substr(first, last + 1 - first);
+}
+
 }  // namespace kinescope::app

@@ -23,4 +23,7 @@ struct ChildResult {
     const std::vector<std::string>& command, std::chrono::milliseconds limit,
     const std::function<bool()>& is_wanted = [] { return true; });
 
+/// The last line of messages, where programs that give up state the reason; "": there is none.
+std::string LastLineOf(const std::string& messages);
+
 }  // namespace kinescope::app

@@ -10,9 +10,9 @@
 
 #include "core/graph_view.h"
 #include "core/system/starts_with.h"
-#include "core/system/utf8.h"
 #include "server/options/ros_names.h"
 #include "server/picture/rviz_file.h"
+#include "server/picture/rviz_values.h"
 #include "server/source/open_source.h"
 #include "urdf/segments.h"
 
@@ -20,6 +20,7 @@ namespace kinescope::app {
 namespace {
 
 using options::Channel;
+using rviz::Quoted;
 
 // A view belongs together: the field of view of a file is not that of a camera that was given.
 bool IsPartOfView(const std::string& option) {
@@ -128,10 +129,6 @@ void ApplyTopics(const std::string& file, const std::vector<RvizPicture::Topic>&
   if (!is_possible || option->channel != Channel::kDefault) return;
   list.Set(*option, option->name, {fmt::format("{}", fmt::join(items, ",")), file + ": "},
            Channel::kFile);
-}
-
-std::string Quoted(const std::string& name) {
-  return "'" + PrintableLine(name.substr(0, 100)) + "'";
 }
 
 // The fixed frame of the file is that of the scene, or a camera that stands in it goes with it.

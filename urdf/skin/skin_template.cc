@@ -4,7 +4,7 @@
 
 #include "urdf/skeleton.h"
 
-// The file that urdf/skin/make wrote.
+// The file that urdf/skin/make writes.
 // NOLINTNEXTLINE(hicpp-no-assembler): the data are read where the linker put them
 asm(R"(
   .section .rodata

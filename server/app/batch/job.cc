@@ -20,13 +20,13 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostIdBytes = 200, kMostLabels = 32, kMostLabelBytes = 200;
-constexpr int kMostDepth = 8;
+constexpr int kMostJobDepth = 8;
 
 // The members of each object that is open, since the parser keeps the last of two of one name.
 class Members {
  public:
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kMostDepth) throw UsageError("more than 8 levels of brackets");
+    if (depth > kMostJobDepth) throw UsageError("more than 8 levels of brackets");
     if (event == json::parse_event_t::object_start) names_.emplace_back();
     if (event == json::parse_event_t::object_end) names_.pop_back();
     if (event == json::parse_event_t::key) {

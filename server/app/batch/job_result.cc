@@ -15,13 +15,13 @@
 #include "core/system/clocks.h"
 #include "core/system/json_parse.h"
 #include "core/system/json_text.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using nlohmann::json;
-using Kind = DeclaredOutput::Kind;
+using DeclaredKind = DeclaredOutput::Kind;
 
 constexpr std::array<std::pair<JobState, const char*>, 4> kStates = {{
     {JobState::kDone, "done"},
@@ -30,8 +30,10 @@ constexpr std::array<std::pair<JobState, const char*>, 4> kStates = {{
     {JobState::kInterrupted, "interrupted"},
 }};
 
-constexpr std::array<std::pair<Kind, const char*>, 3> kKinds = {
-    {{Kind::kFile, "file"}, {Kind::kNumbered, "numbered"}, {Kind::kFolder, "folder"}}};
+constexpr std::array<std::pair<DeclaredKind, const char*>, 3> kKinds = {
+    {{DeclaredKind::kFile, "file"},
+     {DeclaredKind::kNumbered, "numbered"},
+     {DeclaredKind::kFolder, "folder"}}};
 
 template <class Value, std::size_t n>
 const char* NameIn(const std::array<std::pair<Value, const char*>, n>& names, Value value) {

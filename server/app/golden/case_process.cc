@@ -15,7 +15,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMostBytes = 256 << 20;  // of a line
+constexpr std::size_t kMostLineBytes = 256 << 20;  // of a line
 
 }  // namespace
 
@@ -71,7 +71,7 @@ bool CaseProcess::Read(std::vector<std::string>& lines) {
     begin = end + 1;
   }
   received_.erase(0, begin);
-  return received_.size() <= kMostBytes;
+  return received_.size() <= kMostLineBytes;
 }
 
 std::string CaseProcess::End() {

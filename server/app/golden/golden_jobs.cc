@@ -71,12 +71,12 @@ class Jobs {
   }
 
   void WaitForAnswers() {
-    constexpr int kLookEvery = 200;  // ms, for Ctrl-C and for what is too late
+    constexpr int kPollMillis = 200;  // for Ctrl-C and for what is too late
     std::vector<pollfd> wanted;
     for (const Worker& worker : workers_) {
       wanted.push_back({worker.process && worker.at ? worker.process->fd() : -1, POLLIN, 0});
     }
-    if (::poll(wanted.data(), wanted.size(), kLookEvery) <= 0) return;
+    if (::poll(wanted.data(), wanted.size(), kPollMillis) <= 0) return;
     for (std::size_t i = 0; i < workers_.size(); ++i) {
       if (wanted[i].revents != 0) Receive(workers_[i]);
     }
@@ -150,7 +150,7 @@ class Jobs {
   std::size_t next_ = 0, reported_ = 0;
 };
 
-void Answer(const nlohmann::ordered_json& line) {
+void WriteAnswer(const nlohmann::ordered_json& line) {
   PrintText(stdout, JsonText(line) + "\n");
   std::fflush(stdout);
 }
@@ -190,17 +190,17 @@ void AnswerOrders(const GoldenSuite& suite, const CheckSettings& settings,
   try {
     const auto renderer = StartRenderer(backend);
     const auto environment = EnvironmentOf(renderer->info());
-    Answer({{"is_ready", true}});
+    WriteAnswer({{"is_ready", true}});
     for (std::string name; std::getline(std::cin, name, '\0');) {
       nlohmann::ordered_json verdicts = nlohmann::ordered_json::array();
       for (const CaseVerdict& each :
            CheckCase(suite, CaseNamed(name, suite), settings, environment, *renderer)) {
         verdicts.push_back(ToWholeJson(each, settings.out));
       }
-      Answer(verdicts);
+      WriteAnswer(verdicts);
     }
   } catch (const std::exception& error) {
-    Answer({{"error", error.what()}});
+    WriteAnswer({{"error", error.what()}});
   }
 }
 

@@ -15,16 +15,16 @@
 #include "core/system/starts_with.h"
 #include "render/font.h"
 #include "render/image/new_file.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
 constexpr int kLockSchema = 1;
-constexpr std::uintmax_t kMostBytes = 256 << 20;
+constexpr std::uintmax_t kMostLockBytes = 256 << 20;
 
 std::string InputLines(const std::vector<InputFact>& inputs) {
   std::string lines = "\"inputs\": [";
@@ -136,8 +136,8 @@ GoldenLock ParseLock(const std::string& text, std::string* pictures) {
 
 std::string ReadSmallFile(const fs::path& path) {
   if (!fs::is_regular_file(path)) throw std::runtime_error("is no file");
-  if (fs::file_size(path) > kMostBytes) {
-    throw std::runtime_error(fmt::format("has more than {} bytes", kMostBytes));
+  if (fs::file_size(path) > kMostLockBytes) {
+    throw std::runtime_error(fmt::format("has more than {} bytes", kMostLockBytes));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot be read (no permission)");

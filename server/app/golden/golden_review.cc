@@ -22,7 +22,7 @@ fs::path AcceptedPicture(const GoldenSuite& suite, const CaseVerdict& verdict) {
 }
 
 // nullopt: there is none.
-std::optional<std::string> BytesOf(const fs::path& path) {
+std::optional<std::string> BytesIfPresent(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(file), {});
@@ -97,7 +97,7 @@ void GoldenReview::Refresh() {
 
 GoldenReview::Before GoldenReview::BeforeOf(const GoldenSuite& suite, const CaseVerdict& verdict) {
   Before before;
-  before.picture = BytesOf(AcceptedPicture(suite, verdict));
+  before.picture = BytesIfPresent(AcceptedPicture(suite, verdict));
   const auto entry = suite.lock.find(verdict.name);
   if (entry != suite.lock.end()) before.entry = entry->second;
   return before;
@@ -152,7 +152,7 @@ void GoldenReview::Restore(const CaseVerdict& verdict) {
   } else {
     suite.lock.erase(verdict.name);
   }
-  const auto taken = BytesOf(picture);
+  const auto taken = BytesIfPresent(picture);
   WriteOrRemove(picture, before->second.picture);
   WriteLockOf(suite, picture, taken);
   accepted_.erase(verdict.name);

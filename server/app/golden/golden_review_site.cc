@@ -10,6 +10,7 @@
 #include "core/system/json_text.h"
 #include "core/system/words.h"
 #include "server/app/golden/golden_report.h"
+#include "server/app/ordered_json.h"
 #include "server/http/access.h"
 
 namespace kinescope::app {
@@ -17,7 +18,6 @@ namespace {
 
 using http::Answer;
 using http::ErrorAnswer;
-using Json = nlohmann::ordered_json;
 
 struct ReviewOrder {
   const char* name;

@@ -11,12 +11,12 @@
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
 #include "server/app/golden/golden_verdict_json.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
 constexpr int kRunSchema = 1;

@@ -12,12 +12,12 @@
 #include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "server/app/golden/golden_check.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
 constexpr int kMostLines = 1'000'000;

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMostDepth = 40;
+constexpr int kMostMessageDepth = 40;
 constexpr std::size_t kMostElements = 5000, kMostTextBytes = 2000;
 constexpr double kMostPx = 1e5;
 
@@ -29,7 +29,7 @@ constexpr double kMostPx = 1e5;
 
 json ParseBounded(const std::string& text) {
   const auto check_depth = [](int depth, json::parse_event_t, json&) {
-    if (depth > kMostDepth) ThrowMessage("nested too deeply");
+    if (depth > kMostMessageDepth) ThrowMessage("nested too deeply");
     return true;
   };
   try {

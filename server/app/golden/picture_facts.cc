@@ -6,16 +6,14 @@
 #include <map>
 
 #include "core/system/json_text.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using nlohmann::json;
 
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 40;
-
-double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 std::string InView(const std::string& view, const std::string& name) {
   return view.empty() ? name : view + "/" + name;
@@ -51,16 +49,16 @@ Json ToJson(const TextFact& text) {
           {"y", Rounded(text.y_px, 10)}};
 }
 
-Json Place(const Eigen::Vector3d& metres) {
+Json XyzJson(const Eigen::Vector3d& metres) {
   return {Rounded(metres.x(), 1e4), Rounded(metres.y(), 1e4), Rounded(metres.z(), 1e4)};
 }
 
 Json ToJson(const CameraFact& fact) {
   const render::Camera& camera = fact.camera;
   return {{"view", fact.view},
-          {"position_m", Place(camera.position)},
-          {"target_m", Place(camera.target)},
-          {"up", Place(camera.up)},
+          {"position_m", XyzJson(camera.position)},
+          {"target_m", XyzJson(camera.target)},
+          {"up", XyzJson(camera.up)},
           {"vertical_fov_rad", Rounded(camera.vertical_fov_rad, 1e6)},
           {"ortho_height_m", Rounded(camera.ortho_height_m, 1e4)}};
 }

@@ -6,16 +6,14 @@
 #include "core/system/clocks.h"
 #include "core/system/json_text.h"
 #include "server/app/inspect/inspection_report.h"
+#include "server/app/ordered_json.h"
 
 namespace kinescope::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using mvn::CharacterKind;
 using mvn::CharacterReport;
 using mvn::InspectionReport;
-
-double Millis(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-6; }
 
 template <class T>
 Json OrNull(const std::optional<T>& value) {

@@ -134,7 +134,7 @@ PlotPanel MomentPanel(const LoadTrial& trial, std::size_t joint) {
   return panel;
 }
 
-PlotPanel CompressionPanel(const LoadTrial& trial) {
+PlotPanel CompressionPlot(const LoadTrial& trial) {
   constexpr double kNewtonsPerKilo = 1000;
   PlotPanel panel;
   SetTime(trial, panel);
@@ -248,7 +248,7 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
   };
   add(MomentPanel(trial, joint));
   if (joint == urdf::kScoredL5S1) {
-    PlotPanel compression = CompressionPanel(trial);
+    PlotPanel compression = CompressionPlot(trial);
     compression.y_label = "compression (kN)";
     add(std::move(compression));
   }

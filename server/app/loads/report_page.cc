@@ -167,8 +167,8 @@ std::string CommandOf(const ReportPage& page) {
 // "Marks: 1 belt slipped (3.20 s; 0.82 right knee, 3120 N) · ..."; "": none.
 std::string MarksText(const ReportPage& page) {
   std::string text;
-  constexpr std::size_t kMostBytes = 2000;  // more than there is room for
-  for (std::size_t i = 0; i < page.context.marks.size() && text.size() < kMostBytes; ++i) {
+  constexpr std::size_t kMostMarksBytes = 2000;  // more than there is room for
+  for (std::size_t i = 0; i < page.context.marks.size() && text.size() < kMostMarksBytes; ++i) {
     const TrialMark& mark = page.context.marks[i];
     text += fmt::format("{}{} {} ({}; {})", i == 0 ? "" : " · ", i + 1, mark.text, TimesText(mark),
                         LoadsText(LoadsAround(mark, page.trial)));

@@ -31,14 +31,6 @@ std::string Preloading(const char* library) {
                      given == nullptr ? "" : given);
 }
 
-std::string LastLineOf(const std::string& text) {
-  const std::size_t end = text.find_last_not_of(" \r\n");
-  if (end == std::string::npos) return "no message";
-  const std::size_t begin = text.find_last_of('\n', end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1,
-                     end - (begin == std::string::npos ? 0 : begin + 1) + 1);
-}
-
 }  // namespace
 
 std::string FindPdfConverter(std::string_view search_path, const std::string& given) {
@@ -84,8 +76,9 @@ std::string HtmlToPdf(const std::string& converter, std::string_view html) {
         fmt::format("{}: no PDF after {} minutes", converter, kConverterLimit.count()));
   }
   if (result.exit_code != 0 || result.signal != 0 || bytes.rfind("%PDF", 0) != 0) {
-    throw std::runtime_error(
-        fmt::format("{}: cannot convert the report: {}", converter, LastLineOf(result.err)));
+    const std::string why = LastLineOf(result.err);
+    throw std::runtime_error(fmt::format("{}: cannot convert the report: {}", converter,
+                                         why.empty() ? "no message" : why));
   }
   return bytes;
 }

@@ -68,7 +68,7 @@ Report Hardware(const Report& backends) {
   return {{"devices", gpus}, {"usable", device["works"]}, {"remark", remark}};
 }
 
-void PrintText(const Report& found) {
+void PrintReport(const Report& found) {
   Print("Kinescope {}\n", KINESCOPE_VERSION);
   for (const std::string& name : render::BackendNames()) {
     const Report& backend = found["backends"][name];
@@ -119,7 +119,7 @@ int Probe(bool as_json, double limit_secs) {
   if (as_json) {
     Print("{}\n", JsonText(found));
   } else {
-    PrintText(found);
+    PrintReport(found);
   }
   return can_draw ? 0 : 1;
 }

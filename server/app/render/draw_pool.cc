@@ -151,14 +151,14 @@ int DefaultJobs(int cores, const render::PictureSpec& spec) {
   // llvmpipe fills pixels on threads of its own, but nothing of what comes before and after them;
   // another picture does. Each renderer has three textures of what is drawn at once:
   // colour, depth, and the floor that is kept.
-  constexpr int kMostJobs = 8;
+  constexpr int kMostRenderers = 8;
   constexpr std::int64_t kTextures = 3, kMaxBytes = std::int64_t{350} << 20, kLargestSide = 4096;
   const auto side = [&](int px) {
     return std::min(std::int64_t{px} * spec.supersample, kLargestSide);
   };
   const std::int64_t bytes = kTextures * 4 * side(spec.width) * side(spec.height);
-  const int fitting =
-      static_cast<int>(std::clamp(kMaxBytes / bytes, std::int64_t{1}, std::int64_t{kMostJobs}));
+  const int fitting = static_cast<int>(
+      std::clamp(kMaxBytes / bytes, std::int64_t{1}, std::int64_t{kMostRenderers}));
   return std::clamp(cores / 2, 1, fitting);
 }
 

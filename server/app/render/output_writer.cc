@@ -44,7 +44,7 @@ OutputWriter::OutputWriter(const RunContext& run, Output output, bool is_up_to_d
 void OutputWriter::Put(long k, const FuturePicture& picture, const render::Camera& camera,
                        const std::string& heading_note) {
   if (sink_ == nullptr) {
-    first_camera_ = ToJson(camera);
+    first_camera_ = CameraJson(camera);
     heading_note_ = heading_note;
     if (!heading_note_.empty()) spdlog::warn("{}: {}", output_.path, heading_note_);
     sink_ = MakeSink();
@@ -81,7 +81,7 @@ std::map<std::string, std::string> OutputWriter::MetadataFor(const render::Camer
   const bool is_numbered = output_.kind == OutputKind::kSequence;
   Json provenance =
       run_.provenance.Of(output_, is_numbered ? std::optional<long>(k) : std::nullopt);
-  AddCamera(ToJson(camera), provenance);
+  AddCamera(CameraJson(camera), provenance);
   std::map<std::string, std::string> text;
   if (!run_.options.view.title->empty()) {
     text[output_.kind == OutputKind::kClip ? "title" : "Title"] = *run_.options.view.title;

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "server/app/ordered_json.h"
 #include "server/app/render/output_plan.h"
 #include "server/app/render/render_options.h"
 
 namespace kinescope::app {
-
-using Json = nlohmann::ordered_json;
 
 /// 3: pictures of limbs and legends as they are now. 2: inputs are those that the options read. 1:
 /// they were guessed from texts of options.

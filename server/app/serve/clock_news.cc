@@ -19,8 +19,6 @@ constexpr std::int64_t kDiffers = 100 * kNanosPerMilli;
 // Of stamps alone: a delay may be as long.
 constexpr std::int64_t kLong = 500 * kNanosPerMilli;
 
-double Millis(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-6; }
-
 std::string Time(std::int64_t nanos) {
   const double secs = std::abs(Secs(nanos));
   if (secs < 1) return fmt::format("{:.0f} ms", 1000 * secs);

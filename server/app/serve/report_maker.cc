@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,16 +12,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::chrono::minutes kLongestReport(10), kLongestClip(60);
-
-std::string LastLineOf(const std::string& text) {
-  std::istringstream in(text);
-  std::string last;
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty()) last = line;
-  }
-  return last;
-}
+constexpr std::chrono::minutes kReportTimeout(10), kClipTimeout(60);
 
 // `what`: that it makes.
 void RunOurselves(const char* what, std::vector<std::string> arguments, const OptionTexts& options,
@@ -47,14 +37,14 @@ void RunOurselves(const char* what, std::vector<std::string> arguments, const Op
 void MakeReport(const std::filesystem::path& recording, const std::filesystem::path& report,
                 const OptionTexts& options, const Workshop::Progress& progress) {
   RunOurselves("report", {"loads", recording.string(), "--report", report.string()}, options,
-               kLongestReport, progress);
+               kReportTimeout, progress);
 }
 
 void MakeRecordedClip(const std::filesystem::path& recording, const std::filesystem::path& clip,
                       const OptionTexts& options, const Workshop::Progress& progress) {
   RunOurselves("clip",
                {"render", recording.string(), "--out", clip.string(), "--force", "--no_sidecar"},
-               options, kLongestClip, progress);
+               options, kClipTimeout, progress);
 }
 
 }  // namespace kinescope::app

@@ -33,9 +33,6 @@ json EventsToJson(const StreamHealth::Events& events) {
           {"last_micros", events.last_nanos == 0 ? json(nullptr) : json(events.last_nanos / 1000)}};
 }
 
-// Rounded, so that a value that does not change gives the same text.
-double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
-
 }  // namespace
 
 void StreamHealthMeter::OnCounters(const SourceCounters& counters, std::int64_t now_nanos) {

@@ -68,19 +68,19 @@ void AddHand(urdf::Side side, std::optional<double> seconds, const Character& ch
 }
 
 // Where props are worn: the segment and the place in its frame, m.
-struct Place {
+struct PropMount {
   urdf::Segment segment;
   Eigen::Vector3d offset;
   const char* name;  // ends with the kind, as MVN's do
 };
-const std::array<Place, kMaxProps>& Places() {
-  static const std::array<Place, kMaxProps> kPlaces = {{
+const std::array<PropMount, kMaxProps>& PropMounts() {
+  static const std::array<PropMount, kMaxProps> kPropMounts = {{
       {urdf::kRightHand, {0, -0.08, -0.03}, "RightHandSword"},
       {urdf::kLeftHand, {0, 0.08, -0.03}, "LeftHandCrutch"},
       {urdf::kT8, {-0.15, 0, 0.05}, "BackGeneric"},
       {urdf::kPelvis, {0.05, 0.18, 0}, "HipGun"},
   }};
-  return kPlaces;
+  return kPropMounts;
 }
 
 void AddAll(bool gloves, int props, std::optional<double> seconds, const Character& character,
@@ -89,7 +89,7 @@ void AddAll(bool gloves, int props, std::optional<double> seconds, const Charact
   for (int prop = 0; prop < props; ++prop) {
     const auto index = static_cast<std::size_t>(PropIndex(prop));
     if (sample.fingers_and_props.present.test(index)) continue;
-    const Place& place = Places()[static_cast<std::size_t>(prop)];
+    const PropMount& place = PropMounts()[static_cast<std::size_t>(prop)];
     const SegmentState& carrier = sample.segments[urdf::At(place.segment)];
     sample.fingers_and_props.poses[index] = {carrier.position + carrier.orientation * place.offset,
                                              carrier.orientation};
@@ -115,7 +115,7 @@ void AddGlovesAndProps(bool gloves, int props, Character& character) {
     if (!t_pose.fingers_and_props.present.test(i) || !character.scaled_segments[i].name.empty())
       continue;
     character.scaled_segments[i] = {
-        i < kMaxProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
+        i < kMaxProps ? PropMounts()[i].name : FingerOrPropName(static_cast<int>(i)),
         t_pose.fingers_and_props.poses[i].position};
   }
 }

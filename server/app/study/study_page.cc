@@ -14,6 +14,7 @@
 #include "core/scene_state.h"
 #include "core/system/json_text.h"
 #include "server/app/html.h"
+#include "server/app/ordered_json.h"
 #include "server/app/study/study_page_files.h"
 #include "server/app/study/study_text.h"
 #include "server/table/load_rows.h"
@@ -23,7 +24,6 @@ namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr LoadClass kBands[] = {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh,
                                 LoadClass::kUnknown};

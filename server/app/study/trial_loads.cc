@@ -29,7 +29,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // before it, so this is no part of one.
 constexpr std::string_view kEndOfSamples = "],\"inputs\":";
 
-double NumberIn(const json& from, const char* name) {
+double NumberOrUnknown(const json& from, const char* name) {
   const json& value = from.at(name);
   return value.is_null() ? kUnknown : value.get<double>();
 }
@@ -56,17 +56,17 @@ JointLoads JointFrom(const json& from) {
     const char* const band = Name(static_cast<LoadClass>(i));
     joint.samples[i] = from.at("samples").at(band).get<std::uint64_t>();
   }
-  joint.p10 = NumberIn(from, "p10");
-  joint.p50 = NumberIn(from, "p50");
-  joint.p90 = NumberIn(from, "p90");
-  joint.peak = NumberIn(from, "peak_ratio");
-  joint.peak_secs = NumberIn(from, "peak_time_s");
-  joint.peak_moment_Nm = NumberIn(from, "peak_moment_Nm");
+  joint.p10 = NumberOrUnknown(from, "p10");
+  joint.p50 = NumberOrUnknown(from, "p50");
+  joint.p90 = NumberOrUnknown(from, "p90");
+  joint.peak = NumberOrUnknown(from, "peak_ratio");
+  joint.peak_secs = NumberOrUnknown(from, "peak_time_s");
+  joint.peak_moment_Nm = NumberOrUnknown(from, "peak_moment_Nm");
   joint.peak_channel = TextIn(from, "peak_channel");
   const json& high = from.at("above").at(1);
-  joint.longest_high_secs = NumberIn(high, "longest_s");
+  joint.longest_high_secs = NumberOrUnknown(high, "longest_s");
   joint.rises = high.at("rises").get<std::uint64_t>();
-  joint.rises_per_min = NumberIn(high, "rises_per_min");
+  joint.rises_per_min = NumberOrUnknown(high, "rises_per_min");
   return joint;
 }
 
@@ -75,9 +75,9 @@ PersonLoads PersonFrom(const json& from) {
   person.number = from.at("person").get<int>();
   person.name = TextIn(from, "name");
   person.samples = from.at("samples").get<std::uint64_t>();
-  person.secs = NumberIn(from, "seconds");
-  person.mass_kg = NumberIn(from, "mass_kg");
-  person.height_m = NumberIn(from, "height_m");
+  person.secs = NumberOrUnknown(from, "seconds");
+  person.mass_kg = NumberOrUnknown(from, "mass_kg");
+  person.height_m = NumberOrUnknown(from, "height_m");
   person.sex = StatedIn(from, "sex");
   person.hand_load = StatedIn(from, "hand load");
   person.joints.resize(urdf::kScoredJointCount);
@@ -89,12 +89,12 @@ PersonLoads PersonFrom(const json& from) {
   }
   const json& compression = from.at("l5_s1_compression_N");
   if (!compression.is_null()) {
-    person.compression_most_N = NumberIn(compression, "most");
-    person.compression_mean_N = NumberIn(compression, "mean");
+    person.compression_most_N = NumberOrUnknown(compression, "most");
+    person.compression_mean_N = NumberOrUnknown(compression, "mean");
     // Files of version 0.1.0 and before do not have it.
     const auto above = compression.find("above");
     if (above != compression.end())
-      person.compression_above_secs = NumberIn(above->at(0), "seconds");
+      person.compression_above_secs = NumberOrUnknown(above->at(0), "seconds");
   }
   return person;
 }

@@ -38,7 +38,7 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
       {"links", robot.model->links.size()},
       {"root_position", XyzList(robot.world_from_link.front().translation())},
       {"bounds", {XyzList(robot.bounds.min()), XyzList(robot.bounds.max())}},
-      {"camera", ToJson(camera)},
+      {"camera", CameraJson(camera)},
       {"problems", problems},
   };
   Print("{}\n", JsonText(line));

@@ -1,4 +1,4 @@
-// Makes the skin of all people when the program is built: meshes the body's rest shape (CGAL),
+// Makes urdf/skin/skin.bin, the skin of all people: meshes the body's rest shape (CGAL),
 // moves the mesh to the other builds, and gives each vertex its weights.
 //   make_skin FILE
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
