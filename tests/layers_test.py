@@ -35,7 +35,7 @@ LIBRARIES = {
     r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body", "server/scene",
                             "server/picture", "server/app", "server/app/*"}),
     r"tl/expected": ("libexpected", {"server/mvn", "server/mvn/file", "server/alarms", "server/marks", "server/http", "server/picture", "server/ros", "server/app/*", "render/image"}),
-    r"nlohmann/": ("nlohmann-json", {"server/alarms", "server/http", "server/marks", "server/recording", "render/shape", "urdf/mesh", "urdf/rig", "server/options", "server/source", "server/picture", "server/app", "server/app/*"}),
+    r"nlohmann/": ("nlohmann-json", {"core/system", "server/alarms", "server/http", "server/marks", "server/recording", "render/shape", "urdf/mesh", "urdf/rig", "server/options", "server/source", "server/picture", "server/app", "server/app/*"}),
     r"CLI/": ("CLI11", {"server/app"}),
     r"yaml-cpp/": ("yaml-cpp", {"server/alarms", "server/options", "server/picture"}),
     r"(urdf_parser|urdf_model)/": ("urdfdom", {"urdf/robot"}),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 namespace kinescope {
@@ -28,6 +29,12 @@ Escape EscapeOf(std::string_view text) {
   return {};
 }
 
+template <class Json>
+std::string TextOf(const Json& json, int indent, JsonBytes bytes) {
+  return EscapeControls(
+      json.dump(indent, ' ', bytes == JsonBytes::kAscii, Json::error_handler_t::replace));
+}
+
 }  // namespace
 
 std::string EscapeControls(std::string json) {
@@ -47,6 +54,14 @@ std::string EscapeControls(std::string json) {
     at += escape.bytes;
   }
   return escaped;
+}
+
+std::string JsonText(const nlohmann::json& json, int indent, JsonBytes bytes) {
+  return TextOf(json, indent, bytes);
+}
+
+std::string JsonText(const nlohmann::ordered_json& json, int indent, JsonBytes bytes) {
+  return TextOf(json, indent, bytes);
 }
 
 }  // namespace kinescope

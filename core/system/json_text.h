@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace kinescope {
@@ -15,14 +16,13 @@ enum class JsonBytes {
 /// `json` with DEL, C1 and the characters that reverse a text as \u escapes; C0 has them already.
 std::string EscapeControls(std::string json);
 
-/// `json`: nlohmann::json or ordered_json. `indent`: spaces per level; -1: everything on one line.
-template <class Json>
-std::string JsonText(const Json& json, int indent = -1, JsonBytes bytes = JsonBytes::kUtf8) {
-  return EscapeControls(
-      json.dump(indent, ' ', bytes == JsonBytes::kAscii, Json::error_handler_t::replace));
-}
+/// `indent`: spaces per level; -1: everything on one line.
+std::string JsonText(const nlohmann::json& json, int indent = -1,
+                     JsonBytes bytes = JsonBytes::kUtf8);
+std::string JsonText(const nlohmann::ordered_json& json, int indent = -1,
+                     JsonBytes bytes = JsonBytes::kUtf8);
 
-/// JSON has no NaN; null means unknown. `Json` as above.
+/// JSON has no NaN; null means unknown. `Json`: one of these two.
 template <class Json>
 Json NumberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);

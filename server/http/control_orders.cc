@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/utf8.h"
 
@@ -34,7 +35,7 @@ using ReadMember = std::function<bool(const std::string& key, const json& value,
 
 // "" or why not.
 std::string ReadObject(std::string_view body, const char* expected, const ReadMember& read) {
-  const json object = json::parse(body, nullptr, /*allow_exceptions=*/false);
+  const json object = ParseJson(body);
   if (!object.is_object() || object.empty()) return expected;
   for (const auto& [key, value] : object.items()) {
     std::string why;

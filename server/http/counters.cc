@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::http {
@@ -30,7 +31,7 @@ json TlsJson(const TlsStatus& tls) {
 
 std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
                              const std::vector<ClientCounters>& clients, const TlsStatus* tls) {
-  json document = json::parse(diagnostics, nullptr, /*allow_exceptions=*/false);
+  json document = ParseJson(diagnostics);
   if (!document.is_object()) document = {{"error", "internal error: the diagnostics are not JSON"}};
   json connected = json::array();
   for (const ClientCounters& client : clients) connected.push_back(CounterJson(client));

@@ -5,13 +5,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/system/json_parse.h"
+#include "core/system/json_text.h"
+
 namespace kinescope::http {
 
 using nlohmann::json;
 
 namespace {
-
-constexpr auto kReplace = json::error_handler_t::replace;
 
 bool IsNumber(const json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
 
@@ -27,7 +28,7 @@ tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view bod
       "expected a JSON object such as {\"right_kg\": 5, \"left_kg\": 0, \"both_kg\": 0}; add "
       "\"person\": NUMBER if the stream has several persons, and \"right_com_m\" or "
       "\"left_com_m\": [x, y, z] if the load is not at the grip";
-  const json order = json::parse(body, nullptr, /*allow_exceptions=*/false);
+  const json order = ParseJson(body);
   if (!order.is_object() || order.empty()) return tl::unexpected(expected);
   HandLoadOrder parsed;
   parsed.load.is_known = true;
@@ -46,7 +47,7 @@ tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view bod
       parsed.person = value.get<int>();
     } else {
       constexpr std::size_t kMaxShown = 40;  // bytes
-      return tl::unexpected(json(key.substr(0, kMaxShown)).dump(-1, ' ', true, kReplace) +
+      return tl::unexpected(JsonText(json(key.substr(0, kMaxShown)), -1, JsonBytes::kAscii) +
                             ": unknown member or invalid value; " + expected);
     }
   }

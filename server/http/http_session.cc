@@ -3,15 +3,12 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
+#include <boost/beast/core/file.hpp>
+#include <boost/beast/core/read_size.hpp>
 #include <boost/beast/core/string.hpp>
-#include <boost/beast/http/empty_body.hpp>
-#include <boost/beast/http/file_body.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/serializer.hpp>
-#include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <cerrno>
 #include <exception>
@@ -19,6 +16,7 @@
 #include <utility>
 
 #include "server/http/base_path.h"
+#include "server/http/response_head.h"
 #include "server/http/without_tls.h"
 #include "server/http/ws_session.h"
 
@@ -32,47 +30,55 @@ constexpr std::size_t kFirstBytes = 1024;
 constexpr std::size_t kMaxDiscardedBytes = 64 << 10;
 constexpr std::chrono::seconds kLongestDiscarding{1};
 constexpr std::size_t kMinBytesPerWindow = 80'000;
+constexpr std::uint64_t kFileBytesAtOnce = 64 << 10;
 constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
 constexpr char kTlsHandshake = 0x16;  // the first byte of a TLS client
 // Each costs the server a millisecond; a browser begins six.
 constexpr double kHandshakesAtOnce = 60, kHandshakesPerSecond = 10;
 
-// The hash is that of the import map in web/index.html, the page's only inline script;
-// tests/browser/unit/page_policy.test.mjs checks that they match.
-constexpr const char* kContentSecurityPolicy =
-    "default-src 'none'; script-src 'self' 'sha256-E6EF4F1d0+NeY75jeKyUVt8uDavrRTp6S7qv8k9BjNI='; "
-    "style-src 'self'; "
-    "img-src 'self' blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
-
-void AddHeaders(bhttp::fields& fields, const Answer& answer) {
-  fields.set(bhttp::field::server, "kinescope");
-  if (answer.status != 304) fields.set(bhttp::field::content_type, answer.content_type);
-  fields.set("Content-Security-Policy", kContentSecurityPolicy);
-  fields.set("X-Content-Type-Options", "nosniff");
-  fields.set("Referrer-Policy", "no-referrer");  // the URL may contain the token
-  fields.set("Cross-Origin-Resource-Policy", "same-origin");
-  for (const auto& [name, value] : answer.headers) fields.set(name, value);
-}
-
 }  // namespace
 
 // A response on its way.
-template <class Body>
-struct HttpSession::Outgoing {
-  Outgoing(bhttp::status status, unsigned version) : message(status, version) {}
+struct HttpSession::Response {
+  [[nodiscard]] bool IsSent() const { return sent == head.size() + content.size(); }
+  [[nodiscard]] Outgoing Rest() const;
+  [[nodiscard]] bool ReadFile();
 
-  bhttp::response<Body> message;
-  std::optional<bhttp::response_serializer<Body>> serializer;  // made when the message is complete
-  std::size_t window_bytes = 0;  // sent since the client was last given time
-  Clock::time_point deadline{};  // for all of it
+  std::string head;     // status line and headers
+  std::string content;  // of a file: the part that is sent now
+  std::size_t sent = 0;
+  beast::file file;
+  std::uint64_t file_bytes_left = 0;  // that are not in `content` yet
+  std::size_t window_bytes = 0;       // sent since the client was last given time
+  Clock::time_point deadline{};       // for all of it
 };
+
+// What is not sent yet of head and content.
+Outgoing HttpSession::Response::Rest() const {
+  const std::size_t sent_content = sent - std::min(sent, head.size());
+  return Outgoing(std::array<boost::asio::const_buffer, 2>{
+      boost::asio::buffer(head) + sent, boost::asio::buffer(content) + sent_content});
+}
+
+// The next part of the file, when the one before is sent. False: the file is shorter than it was.
+bool HttpSession::Response::ReadFile() {
+  if (file_bytes_left == 0 || (!content.empty() && !IsSent())) return true;
+  if (IsSent()) {
+    head.clear();
+    sent = 0;
+  }
+  content.resize(static_cast<std::size_t>(std::min(file_bytes_left, kFileBytesAtOnce)));
+  beast::error_code error;
+  content.resize(file.read(content.data(), content.size(), error));
+  file_bytes_left -= content.size();
+  return !content.empty();
+}
 
 HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, std::string address, Shared& shared)
     : stream_(std::move(socket)), shared_(shared), incoming_(kMaxIncomingBytes) {
   connection_.address = std::move(address);
   connection_.opened = Clock::now();
-  connection_.close = [this] { stream_.close(); };
+  connection_.close = [this] { stream_.Close(); };
   shared_.connections.Add(connection_);
 }
 
@@ -90,19 +96,19 @@ void HttpSession::Read() {
     return Greet();
   }
   if (std::exchange(is_first_, false) || incoming_.size() > 0) return ReadHeader();
-  stream_.expires_after(shared_.patience.next_request);
+  stream_.ExpiresAfter(shared_.patience.next_request);
   ReadSome(&HttpSession::ReadHeader);
 }
 
 // On a port with TLS. A client that begins with something else is read as one of HTTP, and told.
 void HttpSession::Greet() {
-  stream_.expires_after(shared_.patience.header);
+  stream_.ExpiresAfter(shared_.patience.header);
   ReadSome(&HttpSession::OnGreeting);
 }
 
 // At least one byte, then `next`; nothing if the client is gone.
 void HttpSession::ReadSome(void (HttpSession::*next)()) {
-  stream_.async_read_some(
+  stream_.AsyncReadSome(
       incoming_.prepare(kFirstBytes),
       [self = shared_from_this(), next](beast::error_code error, std::size_t bytes) {
         if (error) return;
@@ -140,10 +146,41 @@ bool HttpSession::MayBeginTls() {
 }
 
 void HttpSession::ReadHeader() {
-  stream_.expires_after(shared_.patience.header);
-  bhttp::async_read_header(
-      stream_, incoming_, *parser_,
-      [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnHeader(error); });
+  stream_.ExpiresAfter(shared_.patience.header);
+  parser_->eager(false);
+  Parse(&HttpSession::OnHeader);
+}
+
+// Until the parser has a header, or, if it is eager, a whole request; then `next`.
+void HttpSession::Parse(void (HttpSession::*next)(beast::error_code error)) {
+  beast::error_code error;
+  while (parser_->eager() ? !parser_->is_done() : !parser_->is_header_done()) {
+    error = bhttp::error::need_more;
+    if (incoming_.size() > 0) incoming_.consume(parser_->put(incoming_.data(), error));
+    if (error == bhttp::error::need_more) return ParseMore(next);
+    if (error) break;
+  }
+  (this->*next)(error);
+}
+
+void HttpSession::ParseMore(void (HttpSession::*next)(beast::error_code error)) {
+  const std::size_t room = beast::read_size(incoming_, kMaxIncomingBytes);
+  if (room == 0) return (this->*next)(bhttp::error::buffer_overflow);
+  stream_.AsyncReadSome(incoming_.prepare(room), [self = shared_from_this(), next](
+                                                     beast::error_code error, std::size_t bytes) {
+    self->incoming_.commit(bytes);
+    if (!error) return self->Parse(next);
+    if (error == boost::asio::error::eof) error = self->EndOfParsing();
+    ((*self).*next)(error);
+  });
+}
+
+// The client sends nothing more.
+beast::error_code HttpSession::EndOfParsing() {
+  if (!parser_->got_some()) return bhttp::error::end_of_stream;
+  beast::error_code error;
+  parser_->put_eof(error);
+  return error;
 }
 
 void HttpSession::OnHeader(beast::error_code error) {
@@ -187,22 +224,27 @@ void HttpSession::ReadBody() {
   const bool is_awaited = version_ >= 11 && incoming_.size() == 0 &&
                           beast::iequals(parser_->get()[bhttp::field::expect], "100-continue");
   if (is_awaited && stream_.is_tls()) {
-    stream_.expires_after(shared_.patience.body);
-    return boost::asio::async_write(
-        stream_, boost::asio::buffer(kInterim),
-        [self = shared_from_this()](beast::error_code error, std::size_t) {
-          if (!error) self->ReadRest();
-        });
+    stream_.ExpiresAfter(shared_.patience.body);
+    return WriteInterim(kInterim);
   }
   if (is_awaited && !SendContinue()) return;
   ReadRest();
 }
 
+void HttpSession::WriteInterim(std::string_view rest) {
+  stream_.AsyncWriteSome(
+      Outgoing(boost::asio::const_buffer(rest.data(), rest.size())),
+      [self = shared_from_this(), rest](beast::error_code error, std::size_t bytes) {
+        if (error) return;
+        if (bytes < rest.size()) return self->WriteInterim(rest.substr(bytes));
+        self->ReadRest();
+      });
+}
+
 void HttpSession::ReadRest() {
-  stream_.expires_after(shared_.patience.body);
-  bhttp::async_read(
-      stream_, incoming_, *parser_,
-      [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnBody(error); });
+  stream_.ExpiresAfter(shared_.patience.body);
+  parser_->eager(true);
+  Parse(&HttpSession::OnBody);
 }
 
 void HttpSession::OnBody(beast::error_code error) {
@@ -264,9 +306,8 @@ void HttpSession::BecomeWebSocket() {
     return Send(ErrorAnswer(503, shared_.hub->WhyNoPlaceFor(connection_.address)));
   }
   shared_.connections.Remove(connection_);
-  std::make_shared<WsSession>(std::move(stream_), connection_.address, role, *shared_.hub,
-                              shared_.next_client_id++)
-      ->Accept(parser_->get());
+  ServeWebSocket(std::move(stream_), connection_.address, role, *shared_.hub,
+                 shared_.next_client_id++, parser_->get());
 }
 
 void HttpSession::Draw(Answer answer) {
@@ -299,7 +340,7 @@ void HttpSession::Draw(Answer answer) {
     shared_.pixels->Pay(connection_.address, request, now);
     ++shared_.counters->snapshots;
     Enter(Connection::Phase::kDrawing);
-    stream_.expires_never();  // no time limit while a picture is rendered
+    stream_.ExpiresNever();  // no time limit while a picture is rendered
     return stream_.is_tls() ? WatchForEndOfTls(is_wanted) : WatchForEnd(is_wanted);
   }
   ++shared_.counters->rejected["too many snapshots"];
@@ -335,14 +376,13 @@ void HttpSession::WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wante
 void HttpSession::WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
   keep_alive_ = false;
   is_watched_ = true;
-  stream_.async_read_some(
-      incoming_.prepare(kFirstBytes),
-      [self = shared_from_this(), is_wanted](beast::error_code error, std::size_t) {
-        self->is_watched_ = false;
-        if (!error || error == boost::asio::error::operation_aborted) return;
-        *is_wanted = false;
-        ++self->shared_.counters->rejected["abandoned"];
-      });
+  stream_.AsyncReadSome(incoming_.prepare(kFirstBytes), [self = shared_from_this(), is_wanted](
+                                                            beast::error_code error, std::size_t) {
+    self->is_watched_ = false;
+    if (!error || error == boost::asio::error::operation_aborted) return;
+    *is_wanted = false;
+    ++self->shared_.counters->rejected["abandoned"];
+  });
 }
 
 // The client sends nothing more: it may have hung up, or wait for its picture. A byte tells: who
@@ -363,73 +403,51 @@ bool HttpSession::SendContinue() {
   const ssize_t sent = ::send(stream_.socket().native_handle(), kInterim.data(), kInterim.size(),
                               MSG_NOSIGNAL | MSG_DONTWAIT);
   const bool is_cut = sent >= 0 && sent < static_cast<ssize_t>(kInterim.size());
-  if (is_cut) stream_.close();
+  if (is_cut) stream_.Close();
   return !is_cut;
 }
 
 void HttpSession::Send(Answer answer) {
-  const auto status = static_cast<bhttp::status>(answer.status);
+  const auto response = std::make_shared<Response>();
+  ResponseFraming framing;
+  framing.version = version_;
+  framing.keep_alive = keep_alive_;
   if (answer.file) {
     beast::error_code error;
-    bhttp::file_body::value_type file;
-    file.open(answer.file->c_str(), beast::file_mode::scan, error);
+    response->file.open(answer.file->c_str(), beast::file_mode::scan, error);
+    if (!error) framing.content_length = response->file.size(error);
     if (error) return Send(ErrorAnswer(404, "the file no longer exists"));
-    const std::uint64_t size = file.size();
-    if (!is_head_) {
-      auto response = std::make_shared<Outgoing<bhttp::file_body>>(status, version_);
-      AddHeaders(response->message, answer);
-      response->message.body() = std::move(file);
-      response->message.content_length(size);
-      return Write(std::move(response));
-    }
-    auto response = std::make_shared<Outgoing<bhttp::empty_body>>(status, version_);
-    AddHeaders(response->message, answer);
-    response->message.content_length(size);
-    return Write(std::move(response));
+    if (!is_head_) response->file_bytes_left = *framing.content_length;
+  } else {
+    if (is_head_ || answer.status != 304) framing.content_length = answer.body.size();
+    if (!is_head_ && answer.status != 304) response->content = std::move(answer.body);
   }
-  if (is_head_ || answer.status == 304) {
-    auto response = std::make_shared<Outgoing<bhttp::empty_body>>(status, version_);
-    AddHeaders(response->message, answer);
-    if (is_head_) response->message.content_length(answer.body.size());
-    return Write(std::move(response));
-  }
-  auto response = std::make_shared<Outgoing<bhttp::string_body>>(status, version_);
-  AddHeaders(response->message, answer);
-  response->message.body() = std::move(answer.body);
-  response->message.content_length(response->message.body().size());
-  Write(std::move(response));
-}
-
-template <class Body>
-void HttpSession::Write(std::shared_ptr<Outgoing<Body>> outgoing) {
-  outgoing->message.keep_alive(keep_alive_);
-  outgoing->serializer.emplace(outgoing->message);
+  response->head = ResponseHead(answer, framing);
   Enter(Connection::Phase::kWriting);
-  outgoing->deadline = connection_.since + shared_.patience.response;
-  stream_.expires_at(
-      std::min(outgoing->deadline, connection_.since + shared_.patience.write_window));
-  WriteSome(std::move(outgoing));
+  response->deadline = connection_.since + shared_.patience.response;
+  stream_.ExpiresAt(
+      std::min(response->deadline, connection_.since + shared_.patience.write_window));
+  Write(response);
 }
 
 // A client that reads too slowly is disconnected: its response would stay in memory.
-template <class Body>
-void HttpSession::WriteSome(std::shared_ptr<Outgoing<Body>> outgoing) {
-  auto& serializer = *outgoing->serializer;
-  bhttp::async_write_some(
-      stream_, serializer,
-      [self = shared_from_this(), outgoing](beast::error_code error, std::size_t bytes) {
-        if (error) return self->OnWriteFailed(error);
-        if (outgoing->serializer->is_done()) return self->OnWritten();
-        const auto now = Clock::now();
-        self->connection_.since = now;
-        outgoing->window_bytes += bytes;
-        if (outgoing->window_bytes >= kMinBytesPerWindow) {
-          outgoing->window_bytes = 0;
-          self->stream_.expires_at(
-              std::min(outgoing->deadline, now + self->shared_.patience.write_window));
-        }
-        self->WriteSome(outgoing);
-      });
+void HttpSession::Write(const std::shared_ptr<Response>& response) {
+  if (!response->ReadFile()) return;  // the connection ends, as its client was promised more
+  stream_.AsyncWriteSome(response->Rest(), [self = shared_from_this(), response](
+                                               beast::error_code error, std::size_t bytes) {
+    if (error) return self->OnWriteFailed(error);
+    response->sent += bytes;
+    if (response->IsSent() && response->file_bytes_left == 0) return self->OnWritten();
+    const auto now = Clock::now();
+    self->connection_.since = now;
+    response->window_bytes += bytes;
+    if (response->window_bytes >= kMinBytesPerWindow) {
+      response->window_bytes = 0;
+      self->stream_.ExpiresAt(
+          std::min(response->deadline, now + self->shared_.patience.write_window));
+    }
+    self->Write(response);
+  });
 }
 
 void HttpSession::OnWriteFailed(beast::error_code error) {
@@ -443,21 +461,21 @@ void HttpSession::OnWritten() {
   stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   if (!is_unread_) return;
   Enter(Connection::Phase::kWaiting);
-  stream_.expires_after(kLongestDiscarding);
+  stream_.ExpiresAfter(kLongestDiscarding);
   Discard(kMaxDiscardedBytes);
 }
 
 // So that the client can tell the end from a connection that was cut.
 void HttpSession::EndTls() {
   Enter(Connection::Phase::kWaiting);
-  stream_.expires_after(kLongestDiscarding);
-  stream_.AsyncShutdownTls([self = shared_from_this()](beast::error_code) {});
+  stream_.ExpiresAfter(kLongestDiscarding);
+  stream_.AsyncShutdownTls([self = shared_from_this()](beast::error_code, std::size_t) {});
 }
 
 // Closing with unread bytes resets the connection: the client could lose the answer.
 void HttpSession::Discard(std::size_t bytes_left) {
   incoming_.clear();
-  stream_.async_read_some(
+  stream_.AsyncReadSome(
       incoming_.prepare(kMaxBodyBytes),
       [self = shared_from_this(), bytes_left](beast::error_code error, std::size_t bytes) {
         if (!error && bytes < bytes_left) self->Discard(bytes_left - bytes);

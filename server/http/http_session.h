@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/system/ip_networks.h"
 #include "server/http/answer.h"
@@ -60,17 +61,20 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
-  template <class Body>
-  struct Outgoing;
+  struct Response;
 
   void Greet();
   void ReadSome(void (HttpSession::*next)());
   void OnGreeting();
   [[nodiscard]] bool MayBeginTls();
   void ReadHeader();
+  void Parse(void (HttpSession::*next)(boost::beast::error_code error));
+  void ParseMore(void (HttpSession::*next)(boost::beast::error_code error));
+  [[nodiscard]] boost::beast::error_code EndOfParsing();
   void OnHeader(boost::beast::error_code error);
   void SendToBasePath();
   void ReadBody();
+  void WriteInterim(std::string_view rest);
   void ReadRest();
   void OnBody(boost::beast::error_code error);
   void Reject(const RequestDefect& defect);
@@ -85,10 +89,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted);
   [[nodiscard]] bool SendContinue();
   void Send(Answer answer);
-  template <class Body>
-  void Write(std::shared_ptr<Outgoing<Body>> outgoing);
-  template <class Body>
-  void WriteSome(std::shared_ptr<Outgoing<Body>> outgoing);
+  void Write(const std::shared_ptr<Response>& response);
   void OnWriteFailed(boost::beast::error_code error);
   void OnWritten();
   void EndTls();

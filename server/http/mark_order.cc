@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/utf8.h"
 
@@ -39,7 +40,7 @@ std::string ReadText(const json& value, std::string& text) {
 }  // namespace
 
 tl::expected<MarkOrder, std::string> ParseMarkOrder(std::string_view body) {
-  const json order = json::parse(body, nullptr, /*allow_exceptions=*/false);
+  const json order = ParseJson(body);
   if (!order.is_object()) return tl::unexpected(std::string(kExpectedMark));
   MarkOrder parsed;
   bool removes = false;

@@ -13,6 +13,7 @@
 #include "core/palette.h"
 #include "core/person_links.h"
 #include "core/system/check.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::http {
@@ -393,7 +394,7 @@ std::vector<CommandInfo> Commands() {
 }
 
 tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
-  const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const json message = ParseJson(text);
   if (!message.is_object()) return tl::unexpected(std::string("expected one JSON object"));
   ClientCommand command;
   for (const auto& [key, value] : message.items()) {

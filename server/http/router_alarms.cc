@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "server/alarms/alarm_json.h"
 #include "server/http/router.h"
@@ -26,7 +27,7 @@ Answer Router::Acknowledge(const Request& request, Role role) const {
   if (auto refusal = RefuseUnlessJson(request, "acknowledge alarms")) return *std::move(refusal);
   if (site_.alarms == nullptr) return Refuse(503, "no alarms", kNoAlarms);
   if (!request.body) return AskForBody();
-  const json order = json::parse(*request.body, nullptr, /*allow_exceptions=*/false);
+  const json order = ParseJson(*request.body);
   const auto id = order.is_object() ? order.find("id") : order.end();
   if (!order.is_object() || order.size() != 1 || id == order.end() || !id->is_number_unsigned()) {
     return Refuse(400, "bad acknowledgement", kExpectedAcknowledgement);

@@ -1,88 +1,131 @@
-/// The connection of one client: TCP, and TLS on it if the server has a certificate. One class for
-/// both, so that what reads and writes HTTP and WebSockets is compiled once. What a WebSocket
-/// receives is limited to so many bytes per second, whatever these bytes are: then a flood of tiny
-/// frames costs little. A stream of Beast (AsyncStream); its timer covers every operation. Server's
-/// thread only.
+/// The connection of one client: TCP, and TLS on it if the server has a certificate. What a
+/// WebSocket receives is limited to so many bytes per second, whatever these bytes are: then a
+/// flood of tiny frames costs little. One timer covers every operation. Server's thread only.
+///
+/// A stream of Beast (AsyncStream) that hides what it is made of, buffers and handlers included:
+/// they all become one type, so that reading and writing are compiled once, in stream.cc.
 #pragma once
 
+#include <array>
 #include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/ssl/stream.hpp>
-#include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/error.hpp>
-#include <boost/beast/core/flat_stream.hpp>
-#include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/websocket/teardown.hpp>
+#include <chrono>
+#include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace kinescope::http {
 
+/// What is called once, at the end of an operation, with its error and the number of bytes.
+class IoHandler {
+ public:
+  template <class Handler,
+            class = std::enable_if_t<!std::is_same_v<std::decay_t<Handler>, IoHandler>>>
+  IoHandler(Handler&& handler)  // NOLINT(google-explicit-constructor): as std::function
+      : call_(std::make_unique<Call<std::decay_t<Handler>>>(std::forward<Handler>(handler))) {}
+
+  void operator()(boost::beast::error_code error, std::size_t bytes) { (*call_)(error, bytes); }
+
+ private:
+  struct AnyCall {
+    virtual ~AnyCall() = default;
+    virtual void operator()(boost::beast::error_code error, std::size_t bytes) = 0;
+  };
+  template <class Handler>
+  struct Call final : AnyCall {
+    explicit Call(Handler&& h) : handler(std::move(h)) {}
+    explicit Call(const Handler& h) : handler(h) {}
+    void operator()(boost::beast::error_code error, std::size_t bytes) override {
+      handler(error, bytes);
+    }
+    Handler handler;
+  };
+
+  std::unique_ptr<AnyCall> call_;
+};
+
+/// What is sent next, in order: the header of a message and its content. A sequence of Asio
+/// (ConstBufferSequence).
+class Outgoing {
+ public:
+  using value_type = boost::asio::const_buffer;
+  using const_iterator = const value_type*;
+
+  /// The first parts of `buffers`: the rest is sent by the next write.
+  template <class Buffers>
+  explicit Outgoing(const Buffers& buffers) {
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto part = boost::asio::buffer_sequence_begin(buffers); part != end; ++part) {
+      const value_type buffer = *part;
+      if (buffer.size() == 0) continue;
+      if (count_ == parts_.size()) return;
+      parts_[count_++] = buffer;
+    }
+  }
+
+  const_iterator begin() const { return parts_.data(); }
+  const_iterator end() const { return parts_.data() + count_; }
+
+ private:
+  std::array<value_type, 4> parts_;
+  std::size_t count_ = 0;
+};
+
 class Stream {
  public:
-  using Tcp = boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::any_io_executor,
-                                         boost::beast::simple_rate_policy>;
-  using executor_type = Tcp::executor_type;
+  using executor_type = boost::asio::any_io_executor;
+  using Clock = std::chrono::steady_clock;
 
-  explicit Stream(boost::asio::ip::tcp::socket socket)
-      : tcp_(std::make_unique<Tcp>(std::move(socket))) {}
+  explicit Stream(boost::asio::ip::tcp::socket socket);
+  ~Stream();
+  Stream(Stream&&) noexcept;
 
-  /// From here on TLS: `received` are the bytes that were read already. The handler receives an
-  /// error and the number of bytes of `received` that were used. `context` need not live longer.
-  template <class Buffers, class Handler>
-  void AsyncHandshake(boost::asio::ssl::context& context, const Buffers& received,
-                      Handler&& handler) {
-    tls_ = std::make_unique<Tls>(*tcp_, context);
-    tls_->next_layer().async_handshake(boost::asio::ssl::stream_base::server, received,
-                                       std::forward<Handler>(handler));
-  }
+  /// From here on TLS: `received` are the bytes that were read already. The handler receives the
+  /// number of bytes of `received` that were used. `context` need not live longer.
+  void AsyncHandshake(boost::asio::ssl::context& context, boost::asio::const_buffer received,
+                      IoHandler handler);
   [[nodiscard]] bool is_tls() const { return tls_ != nullptr; }
   /// Sends the end of a TLS stream, and waits for that of the client.
-  template <class Handler>
-  void AsyncShutdownTls(Handler&& handler) {
-    tls_->next_layer().async_shutdown(std::forward<Handler>(handler));
-  }
+  void AsyncShutdownTls(IoHandler handler);
 
-  executor_type get_executor() noexcept { return tcp_->get_executor(); }
+  void AsyncReadSome(boost::asio::mutable_buffer buffer, IoHandler handler);
+  void AsyncWriteSome(const Outgoing& parts, IoHandler handler);
+
+  boost::asio::ip::tcp::socket& socket();
+  void LimitReading(std::size_t bytes_per_sec);
+  void ExpiresAt(Clock::time_point time);
+  void ExpiresAfter(Clock::duration time) { ExpiresAt(Clock::now() + time); }
+  void ExpiresNever();
+  void Cancel();
+  void Close();
+
+  // What Beast looks for.
+  executor_type get_executor() noexcept;
   template <class Buffers, class Handler>
   void async_read_some(const Buffers& buffers, Handler&& handler) {
-    if (tls_) return tls_->async_read_some(buffers, std::forward<Handler>(handler));
-    tcp_->async_read_some(buffers, std::forward<Handler>(handler));
+    AsyncReadSome(*boost::asio::buffer_sequence_begin(buffers), std::forward<Handler>(handler));
   }
   template <class Buffers, class Handler>
   void async_write_some(const Buffers& buffers, Handler&& handler) {
-    if (tls_) return tls_->async_write_some(buffers, std::forward<Handler>(handler));
-    tcp_->async_write_some(buffers, std::forward<Handler>(handler));
+    AsyncWriteSome(Outgoing(buffers), std::forward<Handler>(handler));
   }
-
-  boost::asio::ip::tcp::socket& socket() { return tcp_->socket(); }
-  boost::beast::simple_rate_policy& rate_policy() { return tcp_->rate_policy(); }
-  template <class Time>
-  void expires_after(Time time) {
-    tcp_->expires_after(time);
-  }
-  template <class Time>
-  void expires_at(Time time) {
-    tcp_->expires_at(time);
-  }
-  void expires_never() { tcp_->expires_never(); }
-  void cancel() { tcp_->cancel(); }
-  void close() { tcp_->close(); }
-
-  // What Beast looks for to end a WebSocket.
-  friend void beast_close_socket(Stream& stream) { stream.close(); }
+  friend void beast_close_socket(Stream& stream) { stream.Close(); }
   template <class Handler>
-  friend void async_teardown(boost::beast::role_type role, Stream& stream, Handler&& handler) {
-    if (stream.tls_) return stream.AsyncShutdownTls(std::forward<Handler>(handler));
-    using boost::beast::websocket::async_teardown;
-    async_teardown(role, stream.tcp_->socket(), std::forward<Handler>(handler));
+  friend void async_teardown(boost::beast::role_type, Stream& stream, Handler&& handler) {
+    stream.AsyncEnd([handler = std::forward<Handler>(handler)](
+                        boost::beast::error_code error, std::size_t) mutable { handler(error); });
   }
 
  private:
-  // Flat: the header of a message and its content are one record.
-  using Tls = boost::beast::flat_stream<boost::asio::ssl::stream<Tcp&>>;
+  class Tcp;
+  struct Tls;
+
+  void AsyncEnd(IoHandler handler);  // of a WebSocket
 
   // On the heap, because TLS refers to TCP and a stream can be moved.
   std::unique_ptr<Tcp> tcp_;

@@ -1,8 +1,16 @@
 #include "server/http/ws_session.h"
 
+#include <array>
 #include <boost/asio/buffer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
+
+#include "server/http/bucket.h"
 
 namespace kinescope::http {
 namespace {
@@ -38,7 +46,50 @@ bool IsFlooded(Bucket& bucket) {
   return false;
 }
 
-}  // namespace
+class WsSession final : public HubClient, public std::enable_shared_from_this<WsSession> {
+ public:
+  /// `hub` is borrowed and must outlive the session.
+  WsSession(Stream stream, std::string address, Role role, Hub& hub, std::uint64_t id);
+  ~WsSession() override;
+
+  /// Accepts the connection; from here on the session keeps itself alive.
+  void Accept(const IncomingRequest& request);
+
+  void Offer(Slot slot, SharedBytes message) override;
+  void SetWantsPictures(bool wanted) override;
+  bool wants_pictures() const override { return counters_.pictures; }
+  void SetWantsDark(bool wanted) override { wants_dark_ = wanted; }
+  bool wants_dark() const override { return wants_dark_; }
+  [[nodiscard]] bool OnSeen(Slot slot, std::uint64_t count) override;
+  ClientCounters counters() const override { return counters_; }
+  const std::string& address() const override { return address_; }
+  Role role() const override { return role_; }
+
+ private:
+  void Read();
+  void OnRead(beast::error_code error);
+  void WriteNext();
+  void OnWritten(Slot slot, beast::error_code error);
+  bool MayWrite(std::size_t slot) const;
+  void OnControlFrame();
+  void Close();
+
+  websocket::stream<Stream, /*deflateSupported=*/false> socket_;
+  const std::string address_;
+  const Role role_;
+  Hub& hub_;
+  ClientCounters counters_;
+  bool wants_dark_ = false;
+  beast::flat_buffer incoming_;
+  std::array<SharedBytes, kSlotCount> waiting_;  // by Slot
+  SharedBytes sending_;                          // null: no message is being sent
+  std::size_t last_slot_ = 0;
+  std::optional<std::uint64_t> seen_states_;  // as the client reported; absent: it never does
+  std::optional<std::uint64_t> seen_pictures_;
+  Bucket messages_, control_frames_;  // that the client may still send
+  std::chrono::steady_clock::time_point sending_since_{};
+  bool open_ = false;
+};
 
 WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, std::uint64_t id)
     : socket_(std::move(stream)),
@@ -49,8 +100,8 @@ WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, st
       control_frames_(kMaxControlFramesPerSecond, kMaxControlFramesPerSecond, Clock::now()) {
   counters_.id = id;
   // The timer of the TCP stream would end the connection; from here the WebSocket's timeouts apply.
-  socket_.next_layer().expires_never();
-  socket_.next_layer().rate_policy().read_limit(kMaxBytesPerSecond);
+  socket_.next_layer().ExpiresNever();
+  socket_.next_layer().LimitReading(kMaxBytesPerSecond);
   socket_.set_option(Timeouts());
   socket_.read_message_max(kMaxMessageBytes);
   // Called while a read of this session is in progress, so that the session exists.
@@ -60,7 +111,7 @@ WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, st
 
 WsSession::~WsSession() { hub_.Leave(*this); }
 
-void WsSession::Accept(const Upgrade& request) {
+void WsSession::Accept(const IncomingRequest& request) {
   const bool is_versioned = !request[beast::http::field::sec_websocket_protocol].empty();
   socket_.set_option(
       websocket::stream_base::decorator([is_versioned](websocket::response_type& response) {
@@ -86,7 +137,7 @@ void WsSession::Offer(Slot slot, SharedBytes message) {
   if (sending_ == nullptr) return WriteNext();
   // Something is offered every 0.4 s. Cancelled operations end later, in OnRead and OnWritten.
   if (std::chrono::steady_clock::now() - sending_since_ > kLongestWrite) {
-    socket_.next_layer().cancel();
+    socket_.next_layer().Cancel();
   }
 }
 
@@ -131,7 +182,7 @@ void WsSession::OnRead(beast::error_code error) {
 
 void WsSession::OnControlFrame() {
   // The read that has called this ends with an error, in OnRead.
-  if (IsFlooded(control_frames_)) socket_.next_layer().close();
+  if (IsFlooded(control_frames_)) socket_.next_layer().Close();
 }
 
 void WsSession::WriteNext() {
@@ -166,7 +217,15 @@ void WsSession::Close() {
   open_ = false;
   hub_.Leave(*this);
   beast::error_code ignored;
-  beast::get_lowest_layer(socket_).socket().close(ignored);
+  socket_.next_layer().socket().close(ignored);
+}
+
+}  // namespace
+
+void ServeWebSocket(Stream stream, std::string address, Role role, Hub& hub, std::uint64_t id,
+                    const IncomingRequest& request) {
+  std::make_shared<WsSession>(std::move(stream), std::move(address), role, hub, id)
+      ->Accept(request);
 }
 
 }  // namespace kinescope::http

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/system/json_parse.h"
+
 namespace kinescope::marks {
 namespace {
 
@@ -135,7 +137,7 @@ json ToJson(const Mark& mark) {
 }
 
 std::optional<Mark> ReadMark(std::string_view line) {
-  const json object = json::parse(line, nullptr, /*allow_exceptions=*/false);
+  const json object = ParseJson(line);
   Reader in(object);
   Mark mark;
   in.Read("id", mark.id);

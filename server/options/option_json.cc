@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/json_parse.h"
 #include "core/system/sha256.h"
 
 namespace kinescope::options {
@@ -17,7 +18,7 @@ nlohmann::json ToJson(const Value& value) {
   if (value.is_repeatable()) return value.ToTexts();
   const std::string text = value.ToText();
   if (value.json_kind() == JsonKind::kText) return text;
-  return nlohmann::json::parse(text);
+  return ParseJsonOrThrow(text);
 }
 
 Json ValuesOf(const OptionList& list) {

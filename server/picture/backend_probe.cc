@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/system/json_parse.h"
 #include "core/system/starts_with.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
@@ -114,7 +115,7 @@ BackendReport ProbeBackend(const std::filesystem::path& program, const std::stri
     return Failed(fmt::format("the driver crashed ({}){}", ::strsignal(child.signal),
                               child.err.empty() ? "" : ": " + LastLineOf(child.err)));
   }
-  const json reported = json::parse(child.out, nullptr, false);
+  const json reported = ParseJson(child.out);
   if (child.exit_code != 0 || !reported.is_object() || !reported.contains("works")) {
     return Failed(child.err.empty() ? "it exited without an error message" : LastLineOf(child.err));
   }

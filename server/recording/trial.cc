@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/system/clocks.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::recording {
@@ -66,11 +67,11 @@ std::string TrialText(const Trial& trial) {
       {"recording_problem", trial.recording_problem},
       {"options", trial.options},
   };
-  return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  return JsonText(object, 2) + "\n";
 }
 
 std::optional<Trial> ReadTrial(std::string_view text) {
-  const json object = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const json object = ParseJson(text);
   if (!object.is_object()) return std::nullopt;
   Trial trial;
   trial.stem = Text(object, "trial");

@@ -55,7 +55,7 @@ void AddRing(const std_msgs::Header& header, const std_msgs::ColorRGBA& color, c
              double width, ShownMarkers& markers) {
   constexpr int kParts = 32, kFirst = 4;
   const double shaft = to.norm() / kWholeArrow;
-  const Eigen::Quaterniond turn = urdf::TurnBetween(Vector3d::UnitZ(), to);
+  const auto turn = urdf::TurnBetween(Vector3d::UnitZ(), to);
   Marker ring = MarkerOf(header, kRing, Marker::LINE_STRIP, color);
   ring.scale.x = 0.05 * width;
   for (int i = kFirst; i <= kParts; ++i) {

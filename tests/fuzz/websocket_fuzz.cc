@@ -36,9 +36,9 @@ class CountingFeed : public http::PictureFeed {
   int viewers = 0;
 };
 
-http::WsSession::Upgrade UpgradeRequest() {
+http::IncomingRequest UpgradeRequest() {
   namespace bhttp = boost::beast::http;
-  http::WsSession::Upgrade request{bhttp::verb::get, "/api/v1/ws", 11};
+  http::IncomingRequest request{bhttp::verb::get, "/api/v1/ws", 11};
   request.set(bhttp::field::host, "localhost");
   request.set(bhttp::field::upgrade, "websocket");
   request.set(bhttp::field::connection, "upgrade");
@@ -107,9 +107,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   {
     boost::asio::ip::tcp::socket socket(io);
     socket.assign(boost::asio::ip::tcp::v4(), sockets[0]);
-    std::make_shared<http::WsSession>(http::Stream(std::move(socket)), "127.0.0.1",
-                                      http::Role::kOperator, hub, 1)
-        ->Accept(UpgradeRequest());
+    http::ServeWebSocket(http::Stream(std::move(socket)), "127.0.0.1", http::Role::kOperator, hub,
+                         1, UpgradeRequest());
   }
   run();
   KINESCOPE_CHECK(hub.client_count() == 1);

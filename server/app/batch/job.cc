@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/system/errors.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/sha256.h"
 #include "core/system/utf8.h"
@@ -43,7 +44,7 @@ class Members {
 
 json Parse(std::string_view text) {
   try {
-    return json::parse(text, Members());
+    return ParseJsonOrThrow(text, Members());
   } catch (const json::exception& error) {
     const std::string reason = error.what();  // "[json.exception…] parse error at line 1, …"
     throw UsageError("not valid JSON: " +

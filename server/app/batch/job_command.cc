@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "core/system/json_text.h"
 #include "core/system/utf8.h"
 #include "core/system/words.h"
 #include "server/app/commands.h"
@@ -25,7 +26,7 @@ using options::Option;
 // One of a list, or the only one.
 std::string TextOf(const std::string& name, const json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number() || value.is_boolean()) return value.dump();
+  if (value.is_number() || value.is_boolean()) return JsonText(value);
   throw UsageError(fmt::format("{}: expected a text, a number, true or false", name));
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "server/app/ordered_json.h"
 
@@ -141,7 +142,7 @@ std::string ToLine(const JobResult& result) {
 }
 
 JobResult ReadResult(std::string_view line) {
-  const json from = json::parse(line);
+  const json from = ParseJsonOrThrow(line);
   JobResult result;
   result.id = from.at("id").get<std::string>();
   result.state = ValueIn(kStates, from.at("state").get<std::string>());

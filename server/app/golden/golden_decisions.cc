@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/system/errors.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
 #include "server/app/ordered_json.h"
@@ -52,7 +53,7 @@ void Keep(Decision decision, const CaseVerdict& verdict, KeptDecisions& kept) {
 }
 
 KeptDecisions ParseDecisions(const std::string& text) {
-  const json document = json::parse(text);
+  const json document = ParseJsonOrThrow(text);
   if (document.at("schema") != kReviewSchema) {
     throw std::runtime_error(fmt::format("schema {}; this version reads {}",
                                          JsonText(document.at("schema")), kReviewSchema));

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/stop_signal.h"
 #include "server/app/golden/case_process.h"
@@ -84,7 +85,7 @@ class Jobs {
   void Receive(Worker& worker) {
     std::vector<std::string> lines;
     const bool goes_on = worker.process->Read(lines);
-    for (const std::string& line : lines) Take(worker, json::parse(line));
+    for (const std::string& line : lines) Take(worker, ParseJsonOrThrow(line));
     if (!goes_on) OnEnd(worker, worker.process->End());
   }
 

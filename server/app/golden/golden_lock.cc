@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/picture_limits.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/sha256.h"
 #include "core/system/starts_with.h"
@@ -120,7 +121,7 @@ GoldenLock ParseLock(const std::string& text, std::string* pictures) {
                     "that is not accepted",
                     JsonText(parsed)));
   };
-  const json document = json::parse(text, see);
+  const json document = ParseJsonOrThrow(text, see);
   if (document.at("schema") != kLockSchema) {
     throw std::runtime_error(fmt::format("schema {}; this version reads {}",
                                          JsonText(document.at("schema")), kLockSchema));

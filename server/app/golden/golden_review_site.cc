@@ -6,6 +6,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/words.h"
 #include "server/app/golden/golden_report.h"
@@ -72,7 +73,7 @@ Answer ReviewSite::Page() const {
 }
 
 Answer ReviewSite::CarryOut(const std::string& body) {
-  const auto order = nlohmann::json::parse(body, nullptr, false);
+  const auto order = ParseJson(body);
   if (!order.is_object() || !order.value("case", nlohmann::json()).is_string() ||
       !order.value("order", nlohmann::json()).is_string()) {
     return ErrorAnswer(400, "expected {\"case\": NAME, \"order\": accept, reject, later or undo}");

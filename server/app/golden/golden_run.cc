@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/system/errors.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
 #include "server/app/golden/golden_verdict_json.h"
@@ -76,7 +77,7 @@ void WriteRun(const fs::path& out, const fs::path& folder,
 }
 
 GoldenRun ParseRun(const std::string& text) {
-  const json document = json::parse(text);
+  const json document = ParseJsonOrThrow(text);
   if (document.at("schema") != kRunSchema) {
     throw std::runtime_error(fmt::format("schema {}; this version reads {}",
                                          JsonText(document.at("schema")), kRunSchema));

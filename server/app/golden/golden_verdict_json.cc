@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/picture_limits.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "server/app/golden/golden_check.h"
 #include "server/app/ordered_json.h"
@@ -124,7 +125,7 @@ Json ToWholeJson(const CaseVerdict& verdict, const fs::path& out) {
   line["masks"] = Json::array();
   for (const render::Tile& mask : verdict.masks) line["masks"].push_back(ToJson(mask));
   line["accepted_pixels"] = verdict.accepted_pixels;
-  line["now"] = verdict.now ? Json::parse(ToJson(*verdict.now)) : Json(nullptr);
+  line["now"] = verdict.now ? ParseOrderedJson(ToJson(*verdict.now)) : Json(nullptr);
   return line;
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/system/utf8.h"
 
@@ -32,7 +33,7 @@ json ParseBounded(const std::string& text) {
     return true;
   };
   try {
-    return json::parse(text, check_depth);
+    return ParseJsonOrThrow(text, check_depth);
   } catch (const json::exception& error) {
     ThrowMessage(PrintableLine(error.what()));
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "server/options/option_json.h"
 #include "server/options/option_list.h"
@@ -178,7 +179,7 @@ bool DependsOnWholeClip(const ViewOptions& options) {
 std::string ToText(const Json& provenance) { return JsonText(provenance, -1, JsonBytes::kAscii); }
 
 std::optional<Json> FromText(const std::string& text) {
-  Json json = Json::parse(text, nullptr, false);
+  Json json = ParseOrderedJson(text);
   if (!json.is_object() || !json.contains("kinescope")) return std::nullopt;
   return json;
 }

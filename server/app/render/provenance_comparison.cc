@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "core/system/json_parse.h"
+
 namespace kinescope::app {
 namespace {
 
@@ -13,7 +15,7 @@ using InputName = std::pair<std::string, std::string>;  // option, name of the f
 std::map<InputName, std::string> HashesOfInputs(const Json& provenance) {
   std::map<InputName, std::string> hashes;
   // Through text, so that names that are not UTF-8 are as they are after reading.
-  const Json read = Json::parse(ToText(provenance));
+  const Json read = ParseOrderedJson(ToText(provenance));
   for (const Json& input : read.value("inputs", Json::array())) {
     const std::string option = PresentNameOf(input.value("option", ""), read.value("schema", 0));
     hashes[{option, input.value("name", "")}] = input.value("sha256", "");
@@ -46,7 +48,7 @@ void AddCorrectionsOfSchemaTwo(const Json& then, const RenderOptions& options,
 bool DecideTheSame(const Json& a, const Json& b) {
   const auto decisive = [](const Json& given) {
     // Through text, so that 1.0 and 1 are what they are after reading.
-    auto json = nlohmann::json::parse(ToText(given));
+    auto json = ParseJsonOrThrow(ToText(given));
     for (const char* follows : {"camera", "camera_note", "path", "pictures", "file"})
       json.erase(follows);
     return json;

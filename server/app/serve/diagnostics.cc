@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/system/clocks.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::app {
@@ -103,7 +104,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["problems"] = counters->problems;
     out["source"]["passed_secs"] = Secs(counters->passed_nanos);
   }
-  out["stream"] = stream != nullptr ? json::parse(StreamHealthJson(*stream)) : json(nullptr);
+  out["stream"] = stream != nullptr ? ParseJsonOrThrow(StreamHealthJson(*stream)) : json(nullptr);
   if (state) out["loads"] = LoadsOf(*state);
   out["ros"] = nullptr;
   if (ros) {

@@ -13,6 +13,7 @@
 #include "core/scene_state.h"
 #include "core/system/errors.h"
 #include "core/system/input_file.h"
+#include "core/system/json_parse.h"
 #include "core/system/json_text.h"
 #include "core/unknown.h"
 #include "server/app/loads/load_files.h"
@@ -169,7 +170,7 @@ bool LooksLikeLoads(std::string_view head) {
 }
 
 TrialLoads ParseTrialLoads(std::string_view text) {
-  const json whole = json::parse(text, [](int depth, json::parse_event_t event, json& value) {
+  const json whole = ParseJsonOrThrow(text, [](int depth, json::parse_event_t event, json& value) {
     return !(depth == 1 && event == json::parse_event_t::key && value == "samples");
   });
   if (whole.value("schema", "") != kLoadsSchema) {
@@ -185,7 +186,7 @@ TrialLoads ReadTrialLoads(const std::string& path) {
     const bool is_ours = file.head().find(fmt::format("{{\"schema\":\"{}\",", kLoadsSchema)) == 0;
     if (is_ours && !file.is_packed()) {
       const std::string end = EndOf(path);
-      if (!end.empty()) return TrialFrom(json::parse("{" + end));
+      if (!end.empty()) return TrialFrom(ParseJsonOrThrow("{" + end));
     }
     return ParseTrialLoads(WholeText(file));
   } catch (const std::exception& error) {

@@ -15,8 +15,8 @@ const html = read('web/index.html');
 test('the content security policy contains the current hash of the import map', () => {
   const [, map] = html.match(/<script type="importmap">([^]*?)<\/script>/);
   const hash = createHash('sha256').update(map).digest('base64');
-  assert.ok(read('server/http/http_session.cc').includes(`'sha256-${hash}'`),
-    `server/http/http_session.cc needs 'sha256-${hash}'`);
+  assert.ok(read('server/http/response_head.cc').includes(`'sha256-${hash}'`),
+    `server/http/response_head.cc needs 'sha256-${hash}'`);
 });
 
 test('the server provides every library that the modules import', () => {
