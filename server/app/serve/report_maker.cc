@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/command_table.h"
 #include "server/picture/child_process.h"
 
 namespace kinescope::app {
@@ -24,10 +25,10 @@ std::string LastLineOf(const std::string& text) {
   return last;
 }
 
-// `what`: that it makes.
-void RunOurselves(const char* what, std::vector<std::string> arguments, const OptionTexts& options,
-                  std::chrono::minutes longest, const Workshop::Progress& progress) {
-  arguments.insert(arguments.begin(), "/proc/self/exe");
+// `what`: that it makes. `arguments`: the command first.
+void RunCommand(const char* what, std::vector<std::string> arguments, const OptionTexts& options,
+                std::chrono::minutes longest, const Workshop::Progress& progress) {
+  arguments.insert(arguments.begin(), ProgramOf(arguments.front()).string());
   for (const auto& [name, value] : options) arguments.push_back("--" + name + "=" + value);
   const ChildResult result =
       RunChild(arguments, longest, [&progress] { return progress.is_wanted(); });
@@ -46,15 +47,15 @@ void RunOurselves(const char* what, std::vector<std::string> arguments, const Op
 
 void MakeReport(const std::filesystem::path& recording, const std::filesystem::path& report,
                 const OptionTexts& options, const Workshop::Progress& progress) {
-  RunOurselves("report", {"loads", recording.string(), "--report", report.string()}, options,
-               kLongestReport, progress);
+  RunCommand("report", {"loads", recording.string(), "--report", report.string()}, options,
+             kLongestReport, progress);
 }
 
 void MakeRecordedClip(const std::filesystem::path& recording, const std::filesystem::path& clip,
                       const OptionTexts& options, const Workshop::Progress& progress) {
-  RunOurselves("clip",
-               {"render", recording.string(), "--out", clip.string(), "--force", "--no_sidecar"},
-               options, kLongestClip, progress);
+  RunCommand("clip",
+             {"render", recording.string(), "--out", clip.string(), "--force", "--no_sidecar"},
+             options, kLongestClip, progress);
 }
 
 }  // namespace kinescope::app
