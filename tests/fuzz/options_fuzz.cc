@@ -8,8 +8,8 @@
 
 #include "core/system/check.h"
 #include "core/system/words.h"
-#include "server/app/commands.h"
 #include "server/options/value.h"
+#include "tests/server/app/all_commands.h"
 
 namespace {
 
@@ -27,7 +27,7 @@ void AddValues(std::vector<app::Command>& commands,
 }
 
 const std::map<std::string, std::vector<Value*>>& ValuesByName() {
-  static std::vector<app::Command> commands = app::AllCommands();
+  static std::vector<app::Command> commands = testing::AllCommands();
   static const auto by_name = [] {
     std::map<std::string, std::vector<Value*>> values;
     AddValues(commands, values);

@@ -246,11 +246,8 @@ bool RunInspect(const InspectOptions& options) {
 
 Command InspectCommand() {
   const auto values = std::make_shared<InspectOptions>();
-  Command command;
-  command.name = "inspect";
+  Command command = CommandNamed("inspect");
   command.shows_progress = true;
-  command.about =
-      "Lists the contents of a stream or a file: people, messages, rates, losses, errors";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source"};
