@@ -6,9 +6,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
 import { startLab } from './lab.mjs';
-import { besidesOutage, chooseTab, closeBrowser, drawSeldom, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { besidesOutage, chooseTab, closeBrowser, drawNothing, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
-drawSeldom();
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
