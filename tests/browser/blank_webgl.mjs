@@ -20,7 +20,12 @@ export function blankWebGl() {
       checkFramebufferStatus: () => WebGL2RenderingContext.FRAMEBUFFER_COMPLETE,
     };
     // The others make something, which is given back to them, or return nothing.
-    return new Proxy(answers, { get: (known, name) => known[name] ?? WebGL2RenderingContext[name] ?? (() => ({})) });
+    const context = {};
+    for (const [name, { value }] of Object.entries(Object.getOwnPropertyDescriptors(WebGL2RenderingContext.prototype))) {
+      if (typeof value === 'number') context[name] = value;
+      if (typeof value === 'function') context[name] = () => ({});
+    }
+    return Object.assign(context, answers);
   };
   const contexts = new WeakMap();
   const { getContext } = HTMLCanvasElement.prototype;

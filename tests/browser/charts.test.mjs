@@ -199,7 +199,8 @@ test('a click on a plot goes to that moment, and hovering shows the values of an
   await isRedrawn(page);  // a click means a moment of the time that the plot shows
   const over = await page.locator('[data-plot="loads"] .u-over').boundingBox();
   await page.mouse.click(over.x + over.width * 0.9, over.y + 20);
-  await page.waitForFunction(() => window.words.some((word) => /^Behind −[01]\.\d s$/.test(word)), null, LONG);  // and ever longer ago
+  // Paused, it is ever longer ago.
+  await page.waitForFunction(() => window.words.some((word) => /^Behind −[01]\.\d s$/.test(word)), null, LONG);
   const first = await page.textContent('#sample');
   await page.mouse.down();
   await page.mouse.move(over.x + over.width * 0.8, over.y + 20, { steps: 3 });

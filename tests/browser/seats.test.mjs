@@ -94,7 +94,7 @@ test('the key map lists what exists, and its switch turns keys of one character 
   await page.uncheck('#character-keys');
   await page.keyboard.press('Escape');
   await page.locator('#key-map').waitFor({ state: 'hidden', ...LONG });
-  assert.equal(await page.textContent('#status-word'), 'Live');
+  assert.equal(await page.getAttribute('body', 'data-time'), 'live');
   for (const key of ['f', '1', 'd', '?']) await page.keyboard.press(key);
   assert.deepEqual(await pressedCameras(page), ['three_quarter']);
   assert.equal(await page.locator('#key-map').isVisible(), false);
