@@ -8,7 +8,9 @@ import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
 import { promisify } from 'node:util';
-import { chooseTab, closeBrowser, DESKTOP, endWithTests, keepWords, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, drawNothing, endWithTests, keepWords, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
+
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -113,8 +115,8 @@ for (const [layout, viewport] of [['desk', DESKTOP], ['phone', PHONE], ['wall', 
     await past.waitForFunction(() => new URL(location.href).searchParams.has('t'), null, LONG);
     const t = Number(new URL(past.url()).searchParams.get('t'));
     await close();
-    const open = (query) => openPage(`${site.url}?view=${layout}&${query}`, { viewport });
-    const viewers = [await open(`t=${t}&camera=front`), await open(`t=${t - 1}&camera=top`), await open('camera=front')];
+    const open = (query, isDrawn) => openPage(`${site.url}?view=${layout}&${query}`, { viewport, isDrawn });
+    const viewers = [await open(`t=${t}&camera=front`, true), await open(`t=${t - 1}&camera=top`, true), await open('camera=front')];
     const [one, two, live] = viewers.map(({ page }) => page);
     for (const page of [one, two]) await statusIs(page, /^Behind −[1-9]/);
     await statusIs(live, /^Live$/);
