@@ -55,6 +55,7 @@ def all_stages(quick):
         ]),
         Stage("headers and clang-tidy", [
             build("asan", "kinescope_ros_messages"),
+            Command([PYTHON, "tests/names_test.py", "build/asan"], what="names"),
             Command([PYTHON, "tests/headers_test.py", "build/asan"], what="headers"),
             Command([PYTHON, "tests/tidy_test.py", "build/asan"], what="clang-tidy"),
         ]),
