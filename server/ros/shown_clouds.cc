@@ -178,7 +178,7 @@ std_msgs::ColorRGBA ColorOfShares(const std::vector<CloudField>& rgb, const std:
 }
 
 // Why it cannot be read, or null.
-const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
+const char* CloudDefect(const sensor_msgs::PointCloud2& cloud) {
   if (cloud.is_bigendian != 0) return "its numbers are big-endian";
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   if (row > cloud.row_step || std::uint64_t{cloud.row_step} * cloud.height > cloud.data.size()) {
@@ -230,7 +230,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
   const auto refuse = [](const std::string& why) {
     return tl::unexpected(Refusal{"cannot be drawn", "a point cloud: " + why});
   };
-  if (const char* const defect = DefectOf(message)) return refuse(defect);
+  if (const char* const defect = CloudDefect(message)) return refuse(defect);
   const auto x = CloudField::Find(message, {"x"}), y = CloudField::Find(message, {"y"}),
              z = CloudField::Find(message, {"z"});
   for (const char* const name : {"x", "y", "z"}) {
