@@ -11,6 +11,7 @@
 #include "server/options/value.h"
 #include "tests/server/app/all_commands.h"
 
+namespace options_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -59,3 +60,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (Value* const value : found->second) CheckValue(*value, input.substr(sign + 1));
   return 0;
 }
+
+}  // namespace options_fuzz

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -168,7 +169,7 @@ TEST(RobotMeshes, AreNotWaitedForWhenTheProgramEnds) {
   urdf::MeshSearch search;
   RobotMeshLimits limits;
   limits.of_file.secs = 3600;
-  testing::WithDeadline([&] {
+  kinescope::testing::WithDeadline([&] {
     LoadRemoteMeshes(
         RobotWith({server.url() + "/a.stl"}), search, [] { return true; }, limits);
   });

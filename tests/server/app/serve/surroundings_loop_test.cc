@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <mutex>
+#include <future>
 #include <string>
 #include <thread>
 
@@ -27,15 +27,14 @@ std::shared_ptr<const SceneState> With(std::uint64_t revision, const std::string
 
 TEST(SurroundingsLoop, MakesTheNewestOnceAfterEachChange) {
   Latest<http::Surroundings> made;
-  std::mutex held;  // by this test: the loop waits after what it has made
-  SurroundingsLoop loop(
-      [&held] {
-        const std::lock_guard<std::mutex> lock(held);
-        return true;
-      },
-      made);
+  std::promise<void> all_have_come;
+  const std::shared_future<void> it_may_go_on = all_have_come.get_future().share();
+  const auto has_viewers = [&] {  // it asks after each that it has made
+    it_may_go_on.wait();
+    return true;
+  };
+  SurroundingsLoop loop(has_viewers, made);
   std::uint64_t version = 0;
-  std::unique_lock<std::mutex> hold(held);
   loop.OnState(std::make_shared<SceneState>());
   EXPECT_EQ(made.Get(), nullptr) << "there is nothing beside the people";
   loop.OnState(With(1, "first"));
@@ -45,10 +44,10 @@ TEST(SurroundingsLoop, MakesTheNewestOnceAfterEachChange) {
   EXPECT_NE(first->glb.find("first"), std::string::npos);
   loop.OnState(With(1, "not looked at: the revision is the same"));
   for (int i = 2; i <= 9; ++i) loop.OnState(With(static_cast<std::uint64_t>(i), "later"));
-  hold.unlock();
+  all_have_come.set_value();
   const auto last = made.WaitNewer(version, kPatience);
   ASSERT_NE(last, nullptr);
-  EXPECT_EQ(last->revision, 9u) << "not every one of those that came meanwhile";
+  EXPECT_EQ(last->revision, 9u) << "not every one of those that came at once";
 }
 
 TEST(SurroundingsLoop, TakesItsTimeWithoutViewers) {

@@ -28,7 +28,6 @@ namespace kinescope::mvn {
 namespace {
 
 using namespace testing;
-using kinescope::testing::kPatience;
 using kinescope::testing::SmallFilesOnly;
 using kinescope::testing::TempFolder;
 using ::testing::AllOf;
@@ -320,7 +319,7 @@ TEST(PcapRecorder, WritesToTheFileWithinSeconds) {
   const auto before = std::chrono::steady_clock::now();
   recorder.OnDatagram(View(Datagram(1)));
   while (recorder.counters().datagrams == 0) {
-    ASSERT_LT(std::chrono::steady_clock::now() - before, kPatience);
+    ASSERT_LT(std::chrono::steady_clock::now() - before, kinescope::testing::kPatience);
     std::this_thread::yield();
   }
   EXPECT_THAT(ReadBack(path), ElementsAre(Datagram(1)));
