@@ -39,6 +39,7 @@ NEVER_RUN = {
 }
 os.environ["CI"] = ""  # as on a person's machine: golden pictures are accepted there
 os.environ["ROS_MASTER_URI"] = "http://127.0.0.1:1"  # leaves a running ROS master alone
+LIMIT_SECS = 600  # only ends what hangs: `golden stress` draws at the lowest priority, too, which lasts as long as a build beside it
 AT_ONCE = 2  # commands; some of them wait for a simulated suit
 # The golden cases that the commands name, and some of each kind: `ctest -R golden_images` draws all of them.
 GOLDEN_CASES = ["lift_bend_right", "no_data", "lift_views_dark", "markers", "pose_one_leg", "walk_clip"]
@@ -70,7 +71,7 @@ def free_port(kind, after=iter(range(100 * os.getpid(), sys.maxsize))):
             return str(port)
 
 
-def run(words, folder, timeout=120):
+def run(words, folder, timeout=LIMIT_SECS):
     done = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=timeout)
     return None if done.returncode == 0 else f"exit code {done.returncode}: {done.stdout[-500:]}"
 
