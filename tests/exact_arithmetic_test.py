@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""exact_arithmetic_test.py FOLDER PROGRAM...: in the programs and the modules of the folder is no instruction whose result depends on the make of the processor.
+"""exact_arithmetic_test.py FOLDER PROGRAM...: no instruction of the programs, and of the modules in the folder, depends on the make of the processor.
 
 RSQRT and RCP are estimates, of which AMD and Intel have their own. A picture that is computed with them has other bytes on another
 machine, which `golden check --strict` takes for a change of the program.

@@ -50,7 +50,8 @@ if ! cmp -s package-lock.json node_modules/.kinescope-lock; then
   if fetch_all; then
     cp package-lock.json node_modules/.kinescope-lock
   else
-    echo "warning: the web page lacks its libraries: check the network connection, or install npm if your registry wants a password; then run sh $PWD/fetch_libraries.sh" >&2
+    echo "warning: the web page lacks its libraries: check the network connection (npm, if installed, knows passwords of registries)," \
+      "and run sh $PWD/fetch_libraries.sh" >&2
     [ -n "$stamp" ] || exit 1
     exit 0
   fi

@@ -99,7 +99,8 @@ cp "$top/web/fetch_libraries.sh" "$page"
 echo 'export const made = 1' > "$page/src/made.js"
 tar -czf "$registry/made/-/made-1.2.3.tgz" -C "$page" --transform 's/^src/package/' src
 lock() {
-  printf '{\n  "packages": {\n    "node_modules/made": {\n      "version": "1.2.3",\n      "integrity": "sha512-%s"\n    }\n  }\n}\n' "$1" > "$page/package-lock.json"
+  printf '%s\n' '{' '  "packages": {' '    "node_modules/made": {' '      "version": "1.2.3",' "      \"integrity\": \"sha512-$1\"" \
+    '    }' '  }' '}' > "$page/package-lock.json"
 }
 exec {served}< <(exec /usr/bin/python3 -u -m http.server 0 --bind 127.0.0.1 --directory "$registry" 2>/dev/null)
 web_server=$!

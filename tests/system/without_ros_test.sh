@@ -1,5 +1,6 @@
 #!/bin/sh
-# without_ros_test.sh MAIN TOOLS: the two programs of commands, linked without ROS, need no ROS library, work, and report that ROS is missing.
+# without_ros_test.sh MAIN TOOLS: the two programs of commands, linked without ROS, need no ROS library, work, and report
+# that ROS is missing.
 set -eu
 for program; do
   if ldd "$program" | grep -E 'libros|libxmlrpcpp|libtf2'; then
