@@ -45,6 +45,11 @@ install_npm() {
   cp "$1/package-lock.json" "$stamp"
 }
 
+# install_page_libraries: those of web/, with npm or without it.
+install_page_libraries() {
+  sh web/fetch_libraries.sh || die "the web page lacks its libraries; check the network connection"
+}
+
 # take_the_lock: one ./check or ./demo at a time builds in this folder. Descriptor 9 is the lock; a compiler that keeps running after
 # this script was killed still holds it.
 take_the_lock() {

@@ -5,7 +5,8 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # What has been compiled once on a machine is not compiled again there: neither after a change of branch nor in another clone,
-# since what is compiled does not depend on the folder. Tests are, since their precompiled header does: clang keeps its path.
+# since what is compiled does not depend on the folder: no path of it in a definition, but for those of the few sources that
+# say where it lies, and none in a batch (batches.cmake). A precompiled header would: clang keeps its path.
 find_program(KINESCOPE_CCACHE ccache)
 if(KINESCOPE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
@@ -15,7 +16,8 @@ set(KINESCOPE_COST_METER "" CACHE FILEPATH "tests/gate/cost.cc as a program; ./c
 if(KINESCOPE_COST_METER)
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${KINESCOPE_COST_METER} unit)
 endif()
-add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+file(RELATIVE_PATH KINESCOPE_SOURCES_FROM_BUILD ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})  # as ccache names them
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=${KINESCOPE_SOURCES_FROM_BUILD}/=)
 # Sources of a target are compiled several at a time: reading the headers is most of their price. Off: one by one, as an editor's
 # language server likes it.
 option(CMAKE_UNITY_BUILD "Compile the sources of a target in batches" ON)

@@ -1,6 +1,6 @@
 #include "core/body_forces.h"
 
-#include <limits>
+#include "core/unknown.h"
 
 namespace kinescope {
 
@@ -20,17 +20,16 @@ const char* FilterName(const BodyForces& forces) {
 }
 
 void MakeUnknown(std::string_view why, BodyForces& forces) {
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(kNothing);
+  const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(kUnknown);
   forces.joints.fill({nothing, nothing, why});
   forces.why_no_ground = why;
   forces.ground_is_measured = forces.external_contact_suspected = false;
   forces.ground_force = Eigen::Vector3d::Zero();
   forces.ground_free_moment = 0;
-  forces.cop_inside = kNothing;
+  forces.cop_inside = kUnknown;
   for (FootForce& foot : forces.feet) {
     foot.force = foot.cop = nothing;
-    foot.free_moment = kNothing;
+    foot.free_moment = kUnknown;
   }
   forces.extrapolated_com.reset();
   forces.margin_of_stability.reset();

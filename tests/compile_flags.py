@@ -13,12 +13,9 @@ INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]')
 def sources_of(entry):
     """The sources that an entry of the database compiles; a batch of a unity build has several."""
     source = pathlib.Path(entry["directory"], entry["file"])
-    if not re.search(r"unity_\d+_cxx", source.name):
+    if source.parent.name != "batches":  # of cmake/batches.cmake
         return [source]
-    if not source.is_file():
-        return []
-    return [pathlib.Path(m.group(2)) for m in map(INCLUDE.match, source.read_text().splitlines())
-            if m and pathlib.Path(m.group(2)).is_absolute()]
+    return [TOP / m.group(2) for m in map(INCLUDE.match, source.read_text().splitlines()) if m]
 
 
 def read_flags(build):

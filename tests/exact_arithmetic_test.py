@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""exact_arithmetic_test.py PROGRAM FOLDER: in the program and the modules of the folder is no instruction whose result depends on the make of the processor.
+"""exact_arithmetic_test.py FOLDER PROGRAM...: in the programs and the modules of the folder is no instruction whose result depends on the make of the processor.
 
 RSQRT and RCP are estimates, of which AMD and Intel have their own. A picture that is computed with them has other bytes on another
 machine, which `golden check --strict` takes for a change of the program.
@@ -31,13 +31,13 @@ def estimates_in(path):
 
 def main():
     """Returns the exit code."""
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder, programs = pathlib.Path(sys.argv[1]), sys.argv[2:]
     modules, count = sorted(folder.glob("*.so")), 0
     if not modules:
         sys.exit(f"{folder}: has no modules")
-    for path in [program, *modules]:
+    for path in [*programs, *modules]:
         for function in estimates_in(path):
             count += 1
             print(f"{path}: {function}: computes with an estimate of the processor; use sqrt and a division")

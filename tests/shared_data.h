@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,10 +11,7 @@
 
 namespace kinescope::testing {
 
-inline std::filesystem::path SharedData(const std::string& file) {
-  const char* folder = std::getenv("KINESCOPE_SHARED_DATA");
-  return std::filesystem::path(folder != nullptr ? folder : KINESCOPE_SHARED_DATA_DEFAULT) / file;
-}
+std::filesystem::path SharedData(const std::string& file);
 
 inline std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -30,10 +30,15 @@ fs::path FindModule(const std::string& file_name) {
                           fs::path(KINESCOPE_BUILD_DIR) / "lib/kinescope" / file_name});
 }
 
-fs::path FindProgram() {
-  return FirstThatExists({ExecutableFolder() / "../libexec/kinescope/kinescope",
-                          fs::path(KINESCOPE_BUILD_DIR) / "libexec/kinescope/kinescope"});
+fs::path FindProgram(const std::string& name) {
+  // The first folder decides: half an installation does not use the programs of another one.
+  const fs::path here = ExecutableFolder(), programs = "libexec/kinescope";
+  const fs::path folder = FirstThatExists({here / ".." / programs, here / "../.." / programs,
+                                           fs::path(KINESCOPE_BUILD_DIR) / programs});
+  return folder.empty() ? fs::path() : FirstThatExists({folder / name});
 }
+
+fs::path FindBuildFolder() { return FirstThatExists({KINESCOPE_BUILD_DIR}); }
 
 fs::path FindResource(const std::string& name) {
   const fs::path here = ExecutableFolder();

@@ -13,7 +13,13 @@ std::filesystem::path FindModule(const std::string& file_name);
 /// Path of a file or folder of Kinescope, such as "web"; empty if not found.
 std::filesystem::path FindResource(const std::string& name);
 
-/// The program of all commands, which bin/kinescope starts; empty if it was not built.
-std::filesystem::path FindProgram();
+/// Those that bin/kinescope starts: of what shows a person, and of all else.
+constexpr char kMainProgram[] = "kinescope", kToolsProgram[] = "kinescope_tools";
+
+/// One of them; empty if it was not built.
+std::filesystem::path FindProgram(const std::string& name);
+
+/// The folder in which this program was built; empty if it is not there, as after an installation.
+std::filesystem::path FindBuildFolder();
 
 }  // namespace kinescope

@@ -1,5 +1,5 @@
-/// A subcommand: its options and what it runs. commands.cc lists them; command_line.cc shows them
-/// to users.
+/// A subcommand: its options and what it runs. command_table.cc lists them; command_line.cc shows
+/// them to users.
 #pragma once
 
 #include <functional>
@@ -48,12 +48,16 @@ struct Command {
   std::vector<Command> parts;  // subcommands of its own
 };
 
+/// With its name, which is in the table of commands, and what that says about it.
+Command CommandNamed(const std::string& name);
+
 /// To be called when all options are set, before the command is run.
 /// @throws UsageError: an option that is required is missing, or one has no effect.
 void CheckIsComplete(const Command& command);
 
 /// Reads the command line, then the file of --config, for options that the command line left open,
-/// and runs the command. @return the exit code. @throws UsageError naming what was wrong.
+/// and runs the command. --help also lists the commands that other programs have.
+/// @return the exit code. @throws UsageError naming what was wrong.
 int RunCommandLine(int argc, char** argv, std::vector<Command> commands);
 
 }  // namespace kinescope::app

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "core/system/starts_with.h"
 #include "core/system/words.h"
 #include "server/app/command.h"
+#include "server/app/command_table.h"
 #include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/options/yaml_options.h"
@@ -167,13 +169,29 @@ void Register(Command& command, CLI::App& parent, std::vector<Registered>& all) 
 // CLI11 would only say that a subcommand is required.
 void RefuseUnknownCommand(const std::vector<Command>& commands, const std::string& word) {
   if (word.empty() || word[0] == '-') return;
-  std::vector<std::string> names;
   for (const Command& command : commands) {
     if (command.name == word) return;
-    names.push_back(command.name);
   }
+  if (FindCommand(word) != nullptr) {
+    throw UsageError(word + " is a command of another program, which bin/kinescope starts");
+  }
+  const std::vector<std::string> names = CommandNames();
   throw UsageError(fmt::format("unknown command '{}': expected {}{} (see --help)", word,
                                Alternatives(names), SuggestionFor(word, names)));
+}
+
+// In the order of the table. Those of other programs are there to be listed.
+void RegisterAll(std::vector<Command>& commands, CLI::App& line, std::vector<Registered>& all) {
+  for (const CommandEntry& entry : kCommands) {
+    const auto ours = std::find_if(commands.begin(), commands.end(), [&](const Command& command) {
+      return command.name == entry.name;
+    });
+    if (ours != commands.end()) {
+      Register(*ours, line, all);
+    } else {
+      line.add_subcommand(entry.name, entry.summary);
+    }
+  }
 }
 
 // The innermost command that was named.
@@ -218,6 +236,15 @@ std::vector<std::string> ArgumentsOf(int argc, char** argv) {
 
 }  // namespace
 
+Command CommandNamed(const std::string& name) {
+  const CommandEntry* const entry = FindCommand(name);
+  if (entry == nullptr) throw std::logic_error(name + " is not in the table of commands");
+  Command command;
+  command.name = name;
+  command.about = entry->summary;
+  return command;
+}
+
 void CheckIsComplete(const Command& command) {
   for (const Option& option : command.options) {
     if (option.channel != Channel::kDefault || command.required.count(option.name) == 0) continue;
@@ -237,7 +264,7 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
     return std::string("kinescope: ") + error.what() + " (see --help)\n";
   });
   std::vector<Registered> all;
-  for (Command& command : commands) Register(command, line, all);
+  RegisterAll(commands, line, all);
   std::vector<std::string> arguments = ArgumentsOf(argc, argv);
   RefuseUnknownCommand(commands, arguments.empty() ? "" : arguments.front());
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
@@ -257,8 +284,10 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   } catch (const CLI::RequiredError&) {
     const Registered* const chosen = Chosen(all);
     std::vector<std::string> names;
-    for (const Command& command : chosen == nullptr ? commands : chosen->command->parts) {
-      names.push_back(command.name);
+    if (chosen == nullptr) {
+      names = CommandNames();
+    } else {
+      for (const Command& part : chosen->command->parts) names.push_back(part.name);
     }
     throw UsageError("command missing: expected " + Alternatives(names) + " (see " +
                      (chosen == nullptr ? "kinescope" : "kinescope " + chosen->command->name) +

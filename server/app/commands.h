@@ -29,7 +29,8 @@ Command UrdfCommand();     // the person's URDF; check or draw any
 Command RvizCommand();     // RViz configuration of running nodes
 Command ProbeCommand();    // capabilities of this machine
 
-/// In the order of --help.
-std::vector<Command> AllCommands();
+/// Those of the main program, and those of the other.
+std::vector<Command> MainCommands();
+std::vector<Command> ToolCommands();
 
 }  // namespace kinescope::app

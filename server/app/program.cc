@@ -1,3 +1,5 @@
+#include "server/app/program.h"
+
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -9,16 +11,16 @@
 #include "core/system/standard_streams.h"
 #include "core/system/stop_signal.h"
 #include "core/system/utf8.h"
-#include "server/app/commands.h"
 #include "server/app/log.h"
 #include "server/ros/bridge.h"
 
+namespace kinescope::app {
 namespace {
 
 // stdout belongs to results (--json, paths); what is said to people goes to stderr.
 void SetUpLog() {
   auto log = spdlog::stderr_color_mt("kinescope");
-  kinescope::app::MakeLinesPrintable(*log);
+  MakeLinesPrintable(*log);
   spdlog::set_default_logger(log);
 }
 
@@ -31,8 +33,7 @@ std::string NodeName(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  using namespace kinescope;
+int RunProgram(int argc, char** argv, std::vector<Command> (*commands)()) {
   try {
     OpenStandardStreams();
     SetUpLog();
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // a log without a reader (2>&1 | head) ends nothing
     ros_bridge::TakeRosArguments(argc, argv, NodeName(argc, argv));
 
-    const int exit_code = app::RunCommandLine(argc, argv, app::AllCommands());
+    const int exit_code = RunCommandLine(argc, argv, commands());
     FlushStandardOutput();
     return exit_code;
   } catch (const std::exception& error) {
@@ -49,3 +50,5 @@ int main(int argc, char** argv) {
     return 2;
   }
 }
+
+}  // namespace kinescope::app

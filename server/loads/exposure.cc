@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
+#include "core/unknown.h"
 
 namespace kinescope::loads {
 namespace {
-
-constexpr double kNoRatio = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t IndexOf(LoadClass band) { return static_cast<std::size_t>(band); }
 
@@ -109,9 +107,9 @@ JointExposure Exposure::Of(std::size_t scored_joint) const {
     const Limit& limit = joint.limits[i];
     exposure.above[i] = {
         Secs(limit.longest_nanos), limit.rises,
-        known_secs > 0 ? static_cast<double>(limit.rises) / known_secs * kSecsPerMin : kNoRatio};
+        known_secs > 0 ? static_cast<double>(limit.rises) / known_secs * kSecsPerMin : kUnknown};
   }
-  exposure.peak_ratio = joint.has_peak ? joint.peak.ratio : kNoRatio;
+  exposure.peak_ratio = joint.has_peak ? joint.peak.ratio : kUnknown;
   exposure.peak_moment = joint.peak.deciding_moment;
   exposure.peak_capacity = joint.peak.capacity;
   exposure.peak_channel = joint.peak.channel;

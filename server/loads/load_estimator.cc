@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/system/clocks.h"
+#include "core/unknown.h"
 #include "server/loads/gap.h"
 #include "server/loads/support_polygon.h"
 
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using namespace urdf;
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kNoLegs = "the source does not measure the legs";
 constexpr std::string_view kLeans =
     "the person sits, leans or holds on to something; the feet alone do not explain the posture";
@@ -121,11 +121,11 @@ double RatioIn(LoadClass load_class, const LoadMeter::Settings& meter) {
     case LoadClass::kHigh: return 2 * meter.up[1];
     case LoadClass::kUnknown: break;
   }
-  return kNothing;
+  return kUnknown;
 }
 
 void MakeUnknown(std::string_view why, JointLoad& load) {
-  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kNothing;
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kUnknown;
   load.channel = {};
   load.reason = why;
 }
@@ -145,15 +145,15 @@ void LoadEstimator::ForgetEverything(const LinkPoses& links, std::string_view wh
                                      std::int64_t stamp) {
   result_.cop.reset();
   kinescope::MakeUnknown(why, result_.forces);
-  result_.forces.com_of_model = Vector3d::Constant(kNothing);
+  result_.forces.com_of_model = Vector3d::Constant(kUnknown);
   for (std::size_t i = 0; i < result_.loads.size(); ++i) {
     JointLoad& load = result_.loads[i];
     load = JointLoad();
     load.joint = urdf::kScoredJoints[i];
     load.position = links[At(ChildOf(load.joint))].position;
-    load.moment = load.force = Vector3d::Constant(kNothing);
+    load.moment = load.force = Vector3d::Constant(kUnknown);
     MakeUnknown(why, load);
-    meters_[i].Update(kNothing, stamp);
+    meters_[i].Update(kUnknown, stamp);
   }
 }
 
@@ -213,7 +213,7 @@ void LoadEstimator::ShowFloor(const GroundReaction& ground, const LoadSubject& s
   BodyForces& forces = result_.forces;
   forces.why_no_ground = subject.has_legs ? ground.why_not : kNoLegs;
   forces.ground_is_measured = ground.is_measured;
-  forces.cop_inside = subject.has_legs ? ground.cop_inside : kNothing;
+  forces.cop_inside = subject.has_legs ? ground.cop_inside : kUnknown;
   result_.cop.reset();
   if (!forces.why_no_ground.empty()) {
     last_cop_nanos_.reset();
@@ -242,10 +242,10 @@ void LoadEstimator::ShowFloor(const GroundReaction& ground, const LoadSubject& s
   for (const Side side : {kRight, kLeft}) {
     FootForce& foot = forces.feet[side];
     const FootShare& share = ground.feet[side];
-    foot.force = known ? share.force : Vector3d::Constant(kNothing);
+    foot.force = known ? share.force : Vector3d::Constant(kUnknown);
     foot.cop = known ? Vector3d(share.point.x(), share.point.y(), subject.floor_z)
-                     : Vector3d::Constant(kNothing);
-    foot.free_moment = known ? share.free_moment : kNothing;
+                     : Vector3d::Constant(kUnknown);
+    foot.free_moment = known ? share.free_moment : kUnknown;
   }
 }
 
@@ -264,7 +264,7 @@ void LoadEstimator::ShowJoints(const GroundReaction& ground, const LinkPoses& li
     const Wrench& wrench = ground.joints[At(ChildOf(joint))];
     shown = {wrench.force, wrench.moment, WhyUnknown(joint)};
     if (!shown.why_unknown.empty()) {
-      shown.force = shown.moment = Vector3d::Constant(kNothing);
+      shown.force = shown.moment = Vector3d::Constant(kUnknown);
     }
   }
   const JointForce& l5s1 = forces.joints[jL5S1];
@@ -307,16 +307,16 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
                                  JointLoad& load) {
   load.is_external = true;
   load.moment = given.moment;
-  load.force = Vector3d::Constant(kNothing);
+  load.force = Vector3d::Constant(kUnknown);
   const bool has_level = given.load_class != LoadClass::kUnknown;
   const bool has_ratio = std::isfinite(given.ratio) && given.ratio >= 0;
   const bool has_moment = given.moment.allFinite();
   if (!IsFresh(given.stamp_nanos, stamp)) {
     MakeUnknown(given.stamp_nanos == 0 ? kNeverExternal : kExternalStopped, load);
-    load.moment = Vector3d::Constant(kNothing);
+    load.moment = Vector3d::Constant(kUnknown);
   } else if (has_level || has_ratio) {
-    load.ratio = has_ratio ? given.ratio : kNothing;
-    load.deciding_moment = load.capacity = kNothing;
+    load.ratio = has_ratio ? given.ratio : kUnknown;
+    load.deciding_moment = load.capacity = kUnknown;
     load.load_class = given.load_class;  // input of ReadMeters
     load.channel = "external";
   } else if (has_moment) {
@@ -345,7 +345,7 @@ void LoadEstimator::CountCompression(const LoadSettings& settings) {
   lumbar.next_ratio = lumbar.ratio;
   lumbar.next_channel = lumbar.channel;
   lumbar.ratio = of_compression;
-  lumbar.deciding_moment = lumbar.capacity = kNothing;
+  lumbar.deciding_moment = lumbar.capacity = kUnknown;
   lumbar.channel = "compression";
   lumbar.is_of_compression = true;
 }
@@ -367,7 +367,7 @@ void LoadEstimator::ReadMeters(const LoadSettings& settings, std::int64_t stamp)
         given == LoadClass::kUnknown ? load.ratio : RatioIn(given, settings.meter), stamp);
     load.load_class = shown.load_class;
     // A class that was given comes without a number that could contradict it.
-    load.shown_ratio = given == LoadClass::kUnknown ? shown.ratio : kNothing;
+    load.shown_ratio = given == LoadClass::kUnknown ? shown.ratio : kUnknown;
   }
 }
 

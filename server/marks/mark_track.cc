@@ -10,7 +10,6 @@
 namespace kinescope::marks {
 namespace {
 
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 constexpr std::int64_t kClocksDiffer = 600 * kNanosPerSecond;  // of two machines, at most
 
 // The time code begins again each day, that of a simulated suit with each stream. `nanos_after`: of

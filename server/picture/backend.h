@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "core/system/install_paths.h"
 #include "render/renderer.h"
 #include "server/options/option_list.h"
 
@@ -31,7 +32,7 @@ struct BackendChoice {
 /// Where to look for GPUs, and the program that tests them.
 struct Machine {
   std::filesystem::path dev = "/dev";
-  std::filesystem::path program = "/proc/self/exe";
+  std::filesystem::path program = FindProgram(kMainProgram);  // has `probe`
 };
 
 /// `auto` looks for a GPU and renders with it in a child process first, because a broken driver may

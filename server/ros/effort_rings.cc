@@ -23,7 +23,7 @@ constexpr double kUsualScale = 1, kUsualWidth = 0.02;  // m
 constexpr double kLargestRadius = 100;                 // m
 
 // The turn that takes the axis to z, where RViz draws the ring.
-Quaterniond TurnOf(const Vector3d& axis) {
+Quaterniond RingTurn(const Vector3d& axis) {
   const Vector3d about = axis.cross(Vector3d::UnitZ());
   if (about.norm() <= 1e-9 * axis.norm()) return Quaterniond::Identity();
   const double angle = std::atan2(about.norm(), axis.z());
@@ -36,7 +36,7 @@ double ShareOf(double effort, const urdf::RobotJoint& joint) {
   return most != 0 ? std::min(std::abs(effort) / std::abs(most), 1.0) : std::abs(effort);
 }
 
-std_msgs::ColorRGBA ColorOf(double share, const ShownStyle& style) {
+std_msgs::ColorRGBA RingColor(double share, const ShownStyle& style) {
   ShownStyle rainbow;
   rainbow.alpha = style.alpha;
   rainbow.scale = PointScale{};
@@ -53,8 +53,8 @@ void AddRing(const std_msgs::Header& header, int id, double effort, const urdf::
   const double share = ShareOf(effort, joint) + kLeastRadius;
   const double radius =
       std::min(kLeastRadius + share * style.size_m.value_or(kUsualScale) / 2, kLargestRadius);
-  const std_msgs::ColorRGBA color = ColorOf(share, style);
-  const Quaterniond turn = TurnOf(joint.axis);
+  const std_msgs::ColorRGBA color = RingColor(share, style);
+  const Quaterniond turn = RingTurn(joint.axis);
   const double forward = effort < 0 ? -1 : 1;
   Marker ring = MarkerOf(header, id, Marker::LINE_STRIP, color);
   ring.frame_locked = 1;

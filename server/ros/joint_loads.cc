@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <vector>
 
 #include "core/system/starts_with.h"
+#include "core/unknown.h"
 #include "server/ros/convert.h"
 #include "server/ros/names.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
 namespace {
-
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 void Copy(const Eigen::Vector3d& from, boost::array<double, 3>& to) {
   std::copy(from.data(), from.data() + 3, to.begin());
@@ -76,7 +74,7 @@ void FillJointLoads(const PersonState& person, const std::string& reference_fram
   message.metric = static_cast<std::uint8_t>(forces.metric);
   message.loads.resize(person.loads.size());
   for (std::size_t i = 0; i < person.loads.size(); ++i) Fill(person.loads[i], message.loads[i]);
-  Set(message.cop, person.cop.value_or(Eigen::Vector3d::Constant(kNotKnown)));
+  Set(message.cop, person.cop.value_or(Eigen::Vector3d::Constant(kUnknown)));
   message.cop_measured = person.cop && forces.ground_is_measured;
   message.dynamic = forces.is_dynamic;
   message.why_static = forces.why_static;
@@ -86,10 +84,10 @@ void FillJointLoads(const PersonState& person, const std::string& reference_fram
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     message.held_mass[side] = forces.hands[side].mass_kg;
   }
-  message.l5_s1_compression = forces.lumbar ? forces.lumbar->compression : kNotKnown;
-  message.l5_s1_shear = forces.lumbar ? forces.lumbar->shear : kNotKnown;
-  message.margin_of_stability = forces.margin_of_stability.value_or(kNotKnown);
-  message.com_minus_mvn = forces.com_minus_mvn ? forces.com_minus_mvn->norm() : kNotKnown;
+  message.l5_s1_compression = forces.lumbar ? forces.lumbar->compression : kUnknown;
+  message.l5_s1_shear = forces.lumbar ? forces.lumbar->shear : kUnknown;
+  message.margin_of_stability = forces.margin_of_stability.value_or(kUnknown);
+  message.com_minus_mvn = forces.com_minus_mvn ? forces.com_minus_mvn->norm() : kUnknown;
 }
 
 NamedJoint FindNamedJoint(std::string_view name) {

@@ -1,9 +1,9 @@
 #include "server/ros/joint_states.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/system/check.h"
+#include "core/unknown.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
@@ -12,14 +12,12 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kNoAngle = std::numeric_limits<double>::quiet_NaN();
-
 void Put(const Vector3d& xyz, std::size_t row, std::vector<double>& out) {
   for (int axis = 0; axis < 3; ++axis) out[3 * row + At(axis)] = xyz[axis];
 }
 
 void FillVelocities(const PersonState& person, std::size_t joints, std::vector<double>& out) {
-  out.assign(joints, kNoAngle);
+  out.assign(joints, kUnknown);
   std::size_t row = 0;
   for (const int joint : JointsByName()) {
     const auto parent = At(urdf::ParentOf(joint));
@@ -38,7 +36,7 @@ void FillEfforts(const PersonState& person, std::size_t joints, std::vector<doub
     const std::size_t at = row++;
     const JointForce& load = person.forces.joints[At(joint)];
     if (!load.why_unknown.empty() || !load.moment.allFinite()) continue;
-    if (out.empty()) out.assign(joints, kNoAngle);
+    if (out.empty()) out.assign(joints, kUnknown);
     const auto parent = At(urdf::ParentOf(joint));
     const auto child = At(urdf::ChildOf(joint));
     Put(AxisMoments(person.links[parent].orientation, person.links[child].orientation,

@@ -21,12 +21,12 @@ namespace {
 
 using visualization_msgs::Marker;
 
-bool AreEqual(const urdf::Pose& a, const urdf::Pose& b) {
+bool SamePose(const urdf::Pose& a, const urdf::Pose& b) {
   return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
 }
 
-bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
-  return a.type == b.type && AreEqual(a.pose, b.pose) && a.scale == b.scale && a.color == b.color &&
+bool SameMarker(const SceneMarker& a, const SceneMarker& b) {
+  return a.type == b.type && SamePose(a.pose, b.pose) && a.scale == b.scale && a.color == b.color &&
          a.points == b.points && a.colors == b.colors && a.text == b.text &&
          a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors &&
          a.is_in_pixels == b.is_in_pixels && a.ground == b.ground;
@@ -158,7 +158,7 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   Entry& entry = entries_[key];
   if (entry.is_new && entry.held_nanos) KeepWaiting(entry);
   // Many nodes publish the same marker again and again; its rendered form can be reused.
-  if (!entry.shape || !AreEqual(*entry.shape, *shape)) {
+  if (!entry.shape || !SameMarker(*entry.shape, *shape)) {
     entry.shape = std::make_shared<const SceneMarker>(*std::move(shape));
   }
   entry.frame = WithoutSlash(message.header.frame_id);
@@ -203,7 +203,7 @@ class MarkerStore::FrameCache {
     const auto last = Find(frame, stamp_nanos + nanos);
     if (!last) return span;
     span.first.is_early = first->is_early || last->is_early;
-    if (!AreEqual(first->pose, last->pose)) span.last = last->pose;
+    if (!SamePose(first->pose, last->pose)) span.last = last->pose;
     return span;
   }
 
@@ -290,7 +290,7 @@ bool MarkerStore::PutAt(Entry& entry, const Waiting& message, const Span& place)
                         (frame.orientation * local.orientation).normalized()};
   const bool is_bent = message.sweep && place.last;
   if (entry.placed && entry.placed_shape == message.shape && !is_bent && !entry.is_placed_bent &&
-      AreEqual(entry.placed->pose, pose)) {
+      SamePose(entry.placed->pose, pose)) {
     return false;
   }
   SceneMarker placed = *message.shape;

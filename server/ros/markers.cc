@@ -8,6 +8,7 @@
 #include "core/palette.h"
 #include "core/system/starts_with.h"
 #include "server/ros/convert.h"
+#include "server/ros/shown_parts.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
@@ -109,12 +110,6 @@ class MarkerWriter {
   const ros::Duration lifetime_;
   std::size_t next_ = 0;
 };
-
-geometry_msgs::Point PointAt(const Eigen::Vector3d& position) {
-  geometry_msgs::Point point;
-  Set(point, position);
-  return point;
-}
 
 void AddSupport(const BodyForces& forces, double floor_z, MarkerWriter& out) {
   if (forces.support.size < 2) return;

@@ -48,7 +48,6 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr std::uint32_t kMarkQueue = 100;
-constexpr std::size_t kLongestTypeName = 80;  // bytes
 constexpr std::int64_t kReadRobotsEveryNanos = 3 * kNanosPerSecond;
 
 // A parameter of a launch file has a type, an argument does not: text that is a number becomes one.

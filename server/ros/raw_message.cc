@@ -5,7 +5,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr double kFarthest = 1e6;  // m; beyond any plausible position
+constexpr double kFarthestTransform = 1e6;  // m; beyond any plausible position
 constexpr double kNormTolerance = 1e-3;
 
 }  // namespace
@@ -36,7 +36,8 @@ const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyz
   if (!position.allFinite() || !xyzw.allFinite()) {
     return "transform with a number that is not finite";
   }
-  if (position.cwiseAbs().maxCoeff() > kFarthest) return "transform with a position out of range";
+  if (position.cwiseAbs().maxCoeff() > kFarthestTransform)
+    return "transform with a position out of range";
   return std::abs(xyzw.norm() - 1) > kNormTolerance
              ? "transform with a quaternion that is not of unit length"
              : nullptr;

@@ -12,6 +12,7 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct RawMessage {
 };
 
 using RawEvent = ros::MessageEvent<const RawMessage>;
+
+/// Bytes of the type of a topic in messages and in names of counters: a publisher is untrusted.
+inline constexpr std::size_t kLongestTypeName = 80;
 
 /// What its publisher says of the connection, such as the "type" or the "md5sum"; "": nothing.
 [[nodiscard]] std::string Said(const RawEvent& event, const char* key);

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr std::size_t kMostNamed = 4;  // links in a problem; the others are counted
+constexpr std::size_t kMostNamedLinks = 4;  // links in a problem; the others are counted
 
 Isometry3d Nowhere() {
   Isometry3d pose = Isometry3d::Identity();
@@ -44,9 +44,9 @@ std::string ProblemOf(const RobotState& robot, const std::vector<std::string>& f
   }
   if (missing.empty()) return "";
   const std::size_t count = missing.size();
-  if (count > kMostNamed) missing.resize(kMostNamed);
+  if (count > kMostNamedLinks) missing.resize(kMostNamedLinks);
   return fmt::format("robot '{}': {} of {} links have no place in TF: {}{}", robot.name, count,
-                     seen, fmt::join(missing, ", "), count > kMostNamed ? ", ..." : "");
+                     seen, fmt::join(missing, ", "), count > kMostNamedLinks ? ", ..." : "");
 }
 
 }  // namespace

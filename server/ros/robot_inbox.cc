@@ -16,7 +16,8 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::int64_t kPatienceNanos = 5'000'000'000;  // before a missing frame is worth a warning
+constexpr std::int64_t kWarningDelayNanos =
+    5'000'000'000;  // before a missing frame is worth a warning
 constexpr std::uint32_t kJointStateQueue = 100;
 
 }  // namespace
@@ -104,7 +105,7 @@ void RobotInbox::WarnOfMissing(std::size_t i) {
     InputCounters& counters = counters_[NameOf(i)];
     if (counters.received > 0 || !counters.last_problem.empty()) return;
     const auto [missed, is_new] = missed_.try_emplace(i, now);
-    if (is_new || now - missed->second < kPatienceNanos) return;
+    if (is_new || now - missed->second < kWarningDelayNanos) return;
     counters.last_problem = "the parameter is not set";
   }
   spdlog::warn("{}: the parameter is not set; the robot is shown as soon as it is", ParameterOf(i));
@@ -196,7 +197,7 @@ void RobotInbox::Warn(std::size_t i, std::int64_t monotonic_nanos) {
     return;
   }
   if (slot.incomplete_nanos == 0) slot.incomplete_nanos = monotonic_nanos;
-  if (monotonic_nanos - slot.incomplete_nanos < kPatienceNanos) return;
+  if (monotonic_nanos - slot.incomplete_nanos < kWarningDelayNanos) return;
   const std::string& frame = frame_->name();
   const std::string text = fmt::format("{}: {} ({})", NameOf(i), problem,
                                        WhyNotFound(*tf_, slot.frames->FirstMissing(), frame));

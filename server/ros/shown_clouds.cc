@@ -69,7 +69,7 @@ std::optional<int> OwnAxisOf(const ShownStyle& style) {
   return SceneAxisOf(style) ? std::nullopt : AxisOf(style);
 }
 
-double At(const geometry_msgs::Point& point, int axis) {
+double Coordinate(const geometry_msgs::Point& point, int axis) {
   return axis == 0 ? point.x : axis == 1 ? point.y : point.z;
 }
 
@@ -178,7 +178,7 @@ std_msgs::ColorRGBA ColorOfShares(const std::vector<CloudField>& rgb, const std:
 }
 
 // Why it cannot be read, or null.
-const char* DefectOf(const sensor_msgs::PointCloud2& cloud) {
+const char* CloudDefect(const sensor_msgs::PointCloud2& cloud) {
   if (cloud.is_bigendian != 0) return "its numbers are big-endian";
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   if (row > cloud.row_step || std::uint64_t{cloud.row_step} * cloud.height > cloud.data.size()) {
@@ -218,7 +218,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::LaserScan& message, const Shown
       sweep.shares.push_back(static_cast<float>(i) / static_cast<float>(message.ranges.size() - 1));
     }
     if (has_intensities) values.push_back(static_cast<double>(message.intensities[i]));
-    if (axis) values.push_back(At(points.points.back(), *axis));
+    if (axis) values.push_back(Coordinate(points.points.back(), *axis));
   }
   points.colors = ColorsOf(values, style);
   ShownMarkers markers = PointsOrNone(std::move(points));
@@ -230,7 +230,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
   const auto refuse = [](const std::string& why) {
     return tl::unexpected(Refusal{"cannot be drawn", "a point cloud: " + why});
   };
-  if (const char* const defect = DefectOf(message)) return refuse(defect);
+  if (const char* const defect = CloudDefect(message)) return refuse(defect);
   const auto x = CloudField::Find(message, {"x"}), y = CloudField::Find(message, {"y"}),
              z = CloudField::Find(message, {"z"});
   for (const char* const name : {"x", "y", "z"}) {
@@ -265,7 +265,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud2& message, const Sho
       colors.push_back(color);
     }
     if (field) values.push_back(field->Number(point));
-    if (axis) values.push_back(At(place, *axis));
+    if (axis) values.push_back(Coordinate(place, *axis));
   }
   points.colors = has_colors ? std::move(colors) : ColorsOf(values, style);
   return PointsOrNone(std::move(points));
@@ -297,7 +297,7 @@ Taken<ShownMarkers> ToMarkers(const sensor_msgs::PointCloud& message, const Show
     if (!std::isfinite(place.x + place.y + place.z)) continue;
     points.points.push_back(place);
     if (channel != nullptr) values.push_back(static_cast<double>((*channel)[i]));
-    if (axis) values.push_back(At(place, *axis));
+    if (axis) values.push_back(Coordinate(place, *axis));
     if (packed == nullptr) continue;
     std::uint32_t bits = 0;
     std::memcpy(&bits, &(*packed)[i], sizeof bits);

@@ -26,8 +26,8 @@ const Vector3d kShaftColor(0.8, 0.8, 0.3), kHeadColor(1, 0.1, 0.6), kGrey(0.7, 0
 constexpr int kSidesOfHead = 8;
 constexpr int kDeepest = 1000;  // parents of a frame: TF may have a loop
 constexpr double kFarthest = kFarthestMarker / 2;
-constexpr std::size_t kMostNamed = 8, kLongestFrame = 100;    // bytes
-constexpr int kIds = static_cast<int>(kMostShownFrames) + 3;  // of each way to show them
+constexpr std::size_t kMostNamedFrames = 8, kLongestFrame = 100;  // bytes
+constexpr int kIds = static_cast<int>(kMostShownFrames) + 3;      // of each way to show them
 constexpr double kSilentSecs = 2;  // after that a frame is no longer heard of
 
 std::shared_ptr<SceneMarker> EmptyMarker(int id, MarkerType type) {
@@ -56,12 +56,12 @@ bool IsNear(const urdf::Pose& pose) {
 // "what: a, b and 3 more"; "" of no names.
 std::string ListOf(const char* what, const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamedFrames); ++i) {
     text += (text.empty() ? std::string(what) + ": " : ", ") +
             PrintableLine(names[i].substr(0, kLongestFrame));
   }
-  if (names.size() > kMostNamed) {
-    text += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  if (names.size() > kMostNamedFrames) {
+    text += " and " + std::to_string(names.size() - kMostNamedFrames) + " more";
   }
   return text;
 }

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
+#include "core/unknown.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
@@ -28,12 +28,11 @@ std::int64_t MomentOf(const Sample& sample) {
 }
 
 JointLoad Unknown(int joint, const Vector3d& position, std::string_view reason) {
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   JointLoad load;
   load.joint = joint;
   load.position = position;
-  load.moment = load.force = Vector3d::Constant(kNothing);
-  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kNothing;
+  load.moment = load.force = Vector3d::Constant(kUnknown);
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kUnknown;
   load.reason = reason;
   return load;
 }

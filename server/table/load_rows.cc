@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/system/clocks.h"
+#include "core/unknown.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
@@ -15,8 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
-const Vector3d kNowhere = Vector3d::Constant(kEmptyCell);
+const Vector3d kNowhere = Vector3d::Constant(kUnknown);
 
 void Vector(const std::string& name, const char* unit, const Vector3d& value, CellSink& cells) {
   cells.Number(name + "_x_" + unit, value.x());
@@ -49,7 +48,7 @@ JointLoad LoadOf(const PersonState& person, int joint) {
   load.joint = joint;
   load.moment = force.moment;
   load.force = force.force;
-  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kEmptyCell;
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kUnknown;
   load.reason = force.why_unknown;
   return load;
 }
@@ -127,10 +126,10 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Text("ground_reason", forces.why_no_ground);
   VisitFoot(forces.feet[urdf::kRight], "right_foot", cells);
   VisitFoot(forces.feet[urdf::kLeft], "left_foot", cells);
-  cells.Number("margin_of_stability_m", forces.margin_of_stability.value_or(kEmptyCell));
+  cells.Number("margin_of_stability_m", forces.margin_of_stability.value_or(kUnknown));
   cells.Number("right_hand_load_kg", forces.hands[urdf::kRight].mass_kg);
   cells.Number("left_hand_load_kg", forces.hands[urdf::kLeft].mass_kg);
-  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kEmptyCell, kEmptyCell});
+  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kUnknown, kUnknown});
   cells.Number("l5_s1_compression_N", lumbar.compression);
   cells.Number("l5_s1_shear_N", lumbar.shear);
 }
@@ -143,7 +142,7 @@ void VisitDetails(const PersonState& person, CellSink& cells) {
   Vector("extrapolated_com", "m", forces.extrapolated_com.value_or(kNowhere), cells);
   cells.Whole("ground_is_measured", forces.ground_is_measured ? 1 : 0);
   cells.Number("ground_free_moment_Nm",
-               forces.why_no_ground.empty() ? forces.ground_free_moment : kEmptyCell);
+               forces.why_no_ground.empty() ? forces.ground_free_moment : kUnknown);
   cells.Whole("external_contact_suspected", forces.external_contact_suspected ? 1 : 0);
   cells.Number("residual_force_ratio", forces.residual_force_share);
   cells.Number("residual_moment_ratio", forces.residual_moment_share);
@@ -165,7 +164,7 @@ void VisitDetails(const PersonState& person, CellSink& cells) {
     Vector(name + "_point", "m", hand.point, cells);
   }
   cells.Number("l5_s1_moment_ratio", person.loads[urdf::kScoredL5S1].moment_ratio);
-  cells.Number("l5_s1_compression_ratio", forces.lumbar ? forces.lumbar->ratio : kEmptyCell);
+  cells.Number("l5_s1_compression_ratio", forces.lumbar ? forces.lumbar->ratio : kUnknown);
 }
 
 void VisitJoint(const PersonState& person, int joint, const std::string& prefix,

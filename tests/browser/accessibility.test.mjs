@@ -3,9 +3,9 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { after, before, test as nodeTest } from 'node:test';
 import { endAlarm, raiseAlarm, startWithAlarms } from './alarm_page.mjs';
-import { chooseTab, closeBrowser, DESKTOP, drawSeldom, openPage, PHONE, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, drawNothing, openPage, PHONE, startFixture } from './open_page.mjs';
 
-drawSeldom();
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 240000 }, body);

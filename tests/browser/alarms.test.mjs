@@ -4,9 +4,9 @@ import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, DESKTOP, drawSeldom, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, drawNothing, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
-drawSeldom();
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);

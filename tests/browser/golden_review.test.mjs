@@ -2,24 +2,25 @@
 import assert from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { appendFile, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { appendFile, cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { after, afterEach, beforeEach, test } from 'node:test';
+import { after, afterEach, before, beforeEach, test } from 'node:test';
 import { promisify } from 'node:util';
 import { closeBrowser, DESKTOP, endWithTests, openPage, PHONE, saveScreenshot } from './open_page.mjs';
 
 const run = promisify(execFile);
 const env = { ...process.env, CI: '' };
-let folder = '';
+let failing = '', folder = '';  // a run that fails, and the copy of it that the test reviews
 const golden = (...args) => run(process.env.KINESCOPE, ['golden', ...args], { cwd: folder, env });
 const fileOf = (name) => readFile(join(folder, name));
 const lock = async () => JSON.parse(await fileOf('golden.lock')).cases;
 
-beforeEach(async () => {
-  folder = await mkdtemp(join(tmpdir(), 'kinescope-review-'));
+const newFolder = () => mkdtemp(join(tmpdir(), 'kinescope-review-'));
+before(async () => {
+  failing = folder = await newFolder();
   for (const name of ['bend', 'reach', 'same', 'title']) {
     await writeFile(join(folder, `${name}.yaml`), 'source: demo:lift\ntime: 2\ncamera: right\nsize: 320x180\n');
   }
@@ -30,8 +31,15 @@ beforeEach(async () => {
   await writeFile(join(folder, 'broken.yaml'), 'source: nowhere.mvnx\nwhy: "<img src=x onerror=alert(1)>"\n');
   await assert.rejects(golden('check', '.', '--out', 'run'), { code: 2 });
 });
+beforeEach(async () => {
+  folder = await newFolder();
+  await cp(failing, folder, { recursive: true });
+});
 afterEach(() => rm(folder, { recursive: true, force: true }));
-after(closeBrowser);
+after(async () => {
+  await closeBrowser();
+  await rm(failing, { recursive: true, force: true });
+});
 
 /** The command under way: the address of its page, and its end. */
 async function startReview() {

@@ -10,6 +10,7 @@ import { mkdir, writeFile } from 'node:fs/promises';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 import { PNG } from 'pngjs';
+import { blankWebGl } from './blank_webgl.mjs';
 
 export const DESKTOP = { width: 1440, height: 900 };
 export const PHONE = { width: 390, height: 844 };
@@ -28,11 +29,12 @@ const PATIENCE_MILLIS = 60000;  // only a failure takes so long
 const SELDOM_MILLIS = 200;
 
 let browser = null;
-let isDrawnSeldom = false;
+let drawsNothing = false;
 
-/** For tests of what stands beside the view: the pages that are opened from now on draw five times a second. Software WebGL
- *  takes most of two cores otherwise, and everything waits for it. */
-export function drawSeldom() { isDrawnSeldom = true; }
+/** For tests of what stands beside the view: the pages that are opened from now on draw nothing in it, unless they say
+ *  `isDrawn`, and then five times a second. Software WebGL takes most of two cores otherwise, and everything waits for it.
+ *  With KINESCOPE_DRAWN all of them draw, for whoever wants to look at their screenshots. */
+export function drawNothing() { drawsNothing = true; }
 
 async function launch() {
   if (!existsSync(CHROMIUM)) {
@@ -118,9 +120,15 @@ export function startFixture(args = []) {
   return startServer(program, args);
 }
 
+/** In the page, before its own programs. @param {number} millis */
+function drawSeldom(millis) {
+  const nextFrame = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => window.setTimeout(() => nextFrame(draw), millis);
+}
+
 /** @param {string} url
- *  @param {{viewport?: {width: number, height: number}, colorScheme?: 'light'|'dark',
- *    context?: object, beforeLoad?: (page: any) => Promise<void>}} options
+ *  @param {{viewport?: {width: number, height: number}, colorScheme?: 'light'|'dark', isDrawn?: boolean,
+ *    context?: object, beforeLoad?: (page: any) => Promise<void>}} options  isDrawn: also after drawNothing()
  *  @returns `problems`: console errors, exceptions, failed and foreign requests, as lines */
 export async function openPage(url, options = {}) {
   browser ??= await launch();
@@ -145,12 +153,8 @@ export async function openPage(url, options = {}) {
     const { protocol, host } = new URL(request.url());
     if (protocol !== 'blob:' && protocol !== 'data:' && host !== home) problems.push(`foreign request: ${request.url()}`);
   });
-  if (isDrawnSeldom) {
-    await page.addInitScript((millis) => {
-      const nextFrame = window.requestAnimationFrame.bind(window);
-      window.requestAnimationFrame = (draw) => window.setTimeout(() => nextFrame(draw), millis);
-    }, SELDOM_MILLIS);
-  }
+  if (drawsNothing && (options.isDrawn || process.env.KINESCOPE_DRAWN)) await page.addInitScript(drawSeldom, SELDOM_MILLIS);
+  else if (drawsNothing) await page.addInitScript(blankWebGl);
   await options.beforeLoad?.(page);
   await page.goto(url, { waitUntil: 'load' });
   return { page, problems, requests, close: () => context.close() };

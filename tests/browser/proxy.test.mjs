@@ -6,8 +6,10 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
 import { promisify } from 'node:util';
-import { closeBrowser, openPage, saveScreenshot, startFixture } from './open_page.mjs';
+import { closeBrowser, drawNothing, openPage, saveScreenshot, startFixture } from './open_page.mjs';
 import { startProxy } from './proxy.mjs';
+
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);

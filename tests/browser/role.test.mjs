@@ -1,9 +1,9 @@
 // Roles on the page: what a viewer sees, and what a browser without the right token sees.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, DESKTOP, drawSeldom, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, drawNothing, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
-drawSeldom();
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);

@@ -2,9 +2,9 @@
 // gone.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { chooseTab, closeBrowser, drawSeldom, openPage, PHONE, pressedCameras, saveScreenshot, settled, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, drawNothing, openPage, PHONE, pressedCameras, saveScreenshot, settled, startFixture } from './open_page.mjs';
 
-drawSeldom();
+drawNothing();
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -94,7 +94,7 @@ test('the key map lists what exists, and its switch turns keys of one character 
   await page.uncheck('#character-keys');
   await page.keyboard.press('Escape');
   await page.locator('#key-map').waitFor({ state: 'hidden', ...LONG });
-  assert.equal(await page.textContent('#status-word'), 'Live');
+  assert.equal(await page.getAttribute('body', 'data-time'), 'live');
   for (const key of ['f', '1', 'd', '?']) await page.keyboard.press(key);
   assert.deepEqual(await pressedCameras(page), ['three_quarter']);
   assert.equal(await page.locator('#key-map').isVisible(), false);
@@ -143,7 +143,7 @@ test('changes of load classes are said, a few times a minute', async () => {
 });
 
 test('a link shows another person the same moment, person, joints, camera, panel, window and theme', async () => {
-  const one = await open('', { context: { permissions: ['clipboard-read', 'clipboard-write'] } });
+  const one = await open('', { isDrawn: true, context: { permissions: ['clipboard-read', 'clipboard-write'] } });
   const { page } = one;
   await page.click('.person[data-character="1"]');
   await chooseTab(page, 'body');
@@ -161,7 +161,7 @@ test('a link shows another person the same moment, person, joints, camera, panel
   await page.click('#copy-link');
   await page.waitForFunction(() => /link to this moment is copied/.test(document.getElementById('banner').textContent), null, LONG);
   const link = await page.evaluate(() => navigator.clipboard.readText());
-  const two = await openPage(link);
+  const two = await openPage(link, { isDrawn: true });
   await two.page.waitForFunction((wanted) => document.getElementById('sample').textContent === wanted
     && /^Behind/.test(document.getElementById('status-word').textContent), sample, LONG);
   await two.page.waitForFunction(() => document.querySelector('.person[data-character="1"]')?.ariaPressed === 'true', null, LONG);

@@ -10,6 +10,7 @@
 #include "server/mvn/byte_order.h"
 #include "tests/fuzz/invariants.h"
 
+namespace assembler_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -68,3 +69,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(assembler.counters().samples == sink.samples);
   return 0;
 }
+
+}  // namespace assembler_fuzz

@@ -9,6 +9,7 @@
 #include "core/system/input_file.h"
 #include "server/ros/source/bag_messages.h"
 
+namespace bag_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -44,3 +45,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(has_reason == !ending.reason.empty());
   return 0;
 }
+
+}  // namespace bag_fuzz

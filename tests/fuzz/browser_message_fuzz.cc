@@ -11,6 +11,7 @@
 #include "core/system/check.h"
 #include "server/app/golden/page_messages.h"
 
+namespace browser_message_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -61,3 +62,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace browser_message_fuzz

@@ -8,6 +8,8 @@
 #include "core/system/errors.h"
 #include "server/picture/camera_keys.h"
 
+namespace camera_keys_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope;
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -24,3 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace camera_keys_fuzz

@@ -12,6 +12,7 @@
 #include "server/recording/folder.h"
 #include "server/recording/trial.h"
 
+namespace controls_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -57,3 +58,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(!found || found->parent_path() == folder.path());
   return 0;
 }
+
+}  // namespace controls_fuzz

@@ -9,6 +9,7 @@
 #include "core/system/check.h"
 #include "server/mvn/encode.h"
 
+namespace datagram_fuzz {
 namespace {
 
 using namespace kinescope::mvn;
@@ -165,3 +166,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::visit(SameBody{again->body}, message->body);
   return 0;
 }
+
+}  // namespace datagram_fuzz

@@ -10,6 +10,7 @@
 #include "core/system/check.h"
 #include "server/mvn/stream_framer.h"
 
+namespace framing_fuzz {
 namespace {
 
 using kinescope::mvn::StreamFramer;
@@ -66,3 +67,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(whole.ends == cut.ends);
   return 0;
 }
+
+}  // namespace framing_fuzz

@@ -16,6 +16,7 @@
 #include "server/app/golden/golden_run.h"
 #include "server/app/golden/golden_verdict_json.h"
 
+namespace golden_run_fuzz {
 namespace {
 
 using namespace kinescope::app;
@@ -100,3 +101,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace golden_run_fuzz

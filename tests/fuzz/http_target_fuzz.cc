@@ -6,6 +6,8 @@
 #include "core/system/check.h"
 #include "server/http/target.h"
 
+namespace http_target_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto target = kinescope::http::ParseTarget({reinterpret_cast<const char*>(data), size});
   if (!target) {
@@ -17,3 +19,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(path.find('\0') == std::string_view::npos);
   return 0;
 }
+
+}  // namespace http_target_fuzz

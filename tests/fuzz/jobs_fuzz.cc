@@ -10,6 +10,8 @@
 #include "server/app/batch/job.h"
 #include "server/app/batch/job_result.h"
 
+namespace jobs_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope::app;
   const std::string_view line(reinterpret_cast<const char*>(data), size);
@@ -28,3 +30,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace jobs_fuzz

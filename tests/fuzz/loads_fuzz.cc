@@ -10,6 +10,7 @@
 #include "core/system/check.h"
 #include "server/loads/load_estimator.h"
 
+namespace loads_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -107,3 +108,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   EstimateFrom(data, size);
   return 0;
 }
+
+}  // namespace loads_fuzz

@@ -29,6 +29,7 @@
 #include "server/ros/source/told_people.h"
 #include "server/ros/topic_markers.h"
 
+namespace marker_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -284,3 +285,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace marker_fuzz

@@ -12,6 +12,8 @@
 #include "server/http/target.h"
 #include "server/marks/mark_json.h"
 
+namespace marks_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope;
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -34,3 +36,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace marks_fuzz

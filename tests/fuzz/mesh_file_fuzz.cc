@@ -10,6 +10,8 @@
 #include "core/system/check.h"
 #include "urdf/mesh/mesh_file.h"
 
+namespace mesh_file_fuzz {
+
 // assimp leaks what it has made so far of many a file that it refuses; that is bounded by the file,
 // which is read once.
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
@@ -46,3 +48,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace mesh_file_fuzz

@@ -8,6 +8,7 @@
 #include "server/mvn/file/mvnx_source.h"
 #include "tests/fuzz/invariants.h"
 
+namespace mvnx_fuzz {
 namespace {
 
 struct CheckingSink : kinescope::SampleSink {
@@ -36,3 +37,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace mvnx_fuzz

@@ -8,9 +8,10 @@
 
 #include "core/system/check.h"
 #include "core/system/words.h"
-#include "server/app/commands.h"
 #include "server/options/value.h"
+#include "tests/server/app/all_commands.h"
 
+namespace options_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -27,7 +28,7 @@ void AddValues(std::vector<app::Command>& commands,
 }
 
 const std::map<std::string, std::vector<Value*>>& ValuesByName() {
-  static std::vector<app::Command> commands = app::AllCommands();
+  static std::vector<app::Command> commands = testing::AllCommands();
   static const auto by_name = [] {
     std::map<std::string, std::vector<Value*>> values;
     AddValues(commands, values);
@@ -59,3 +60,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (Value* const value : found->second) CheckValue(*value, input.substr(sign + 1));
   return 0;
 }
+
+}  // namespace options_fuzz

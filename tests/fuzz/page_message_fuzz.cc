@@ -12,6 +12,7 @@
 #include "server/http/hand_load_order.h"
 #include "server/http/hub.h"
 
+namespace page_message_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -87,3 +88,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace page_message_fuzz

@@ -14,6 +14,7 @@
 #include "server/mvn/file/raw_file_datagrams.h"
 #include "tests/fuzz/invariants.h"
 
+namespace pcap_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -58,3 +59,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace pcap_fuzz

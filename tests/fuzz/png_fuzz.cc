@@ -11,6 +11,7 @@
 #include "core/system/check.h"
 #include "render/image/plain_png.h"
 
+namespace png_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -70,3 +71,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Check(file.data(), file.size());
   return 0;
 }
+
+}  // namespace png_fuzz

@@ -13,6 +13,7 @@
 #include "tests/fuzz/invariants.h"
 #include "urdf/kinematics.h"
 
+namespace pose_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -48,3 +49,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   CheckPose(pose);
   return 0;
 }
+
+}  // namespace pose_fuzz

@@ -10,6 +10,8 @@
 #include "urdf/rig/rigged_skin.h"
 #include "urdf/skin/frames.h"
 
+namespace rig_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
@@ -35,3 +37,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace rig_fuzz

@@ -8,6 +8,8 @@
 #include "server/picture/rviz_file.h"
 #include "server/picture/view_options.h"
 
+namespace rviz_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope;
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -33,3 +35,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace rviz_fuzz

@@ -11,6 +11,7 @@
 #include "server/mvn/byte_order.h"
 #include "server/mvn/scale_group.h"
 
+namespace scale_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -70,3 +71,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace scale_fuzz

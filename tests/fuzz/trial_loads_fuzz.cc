@@ -8,6 +8,8 @@
 #include "server/app/study/study.h"
 #include "server/app/study/trial_loads.h"
 
+namespace trial_loads_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope::app;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -20,3 +22,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace trial_loads_fuzz

@@ -11,6 +11,7 @@
 #include "urdf/robot/robot_model.h"
 #include "urdf/robot/urdf_check.h"
 
+namespace urdf_fuzz {
 namespace {
 
 using namespace kinescope::urdf;
@@ -73,3 +74,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(is_read == !has_unreadable);
   return 0;
 }
+
+}  // namespace urdf_fuzz

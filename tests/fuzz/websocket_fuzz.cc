@@ -19,6 +19,7 @@
 #include "core/system/check.h"
 #include "server/http/ws_session.h"
 
+namespace websocket_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -126,3 +127,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   CheckFrames(std::string_view(received).substr(body + 4));
   return 0;
 }
+
+}  // namespace websocket_fuzz

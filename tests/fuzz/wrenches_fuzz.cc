@@ -12,6 +12,7 @@
 #include "core/system/errors.h"
 #include "server/wrenches/wrench_reader.h"
 
+namespace wrenches_fuzz {
 namespace {
 
 using namespace kinescope;
@@ -54,3 +55,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace wrenches_fuzz

@@ -10,6 +10,8 @@
 #include "server/options/yaml_options.h"
 #include "server/scene/scene_reader.h"
 
+namespace yaml_options_fuzz {
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinescope;
   app::GoldenCase golden_case;
@@ -26,3 +28,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   KINESCOPE_CHECK(*golden_case.time >= 0 && *golden_case.time <= app::kLatestSecs);
   return 0;
 }
+
+}  // namespace yaml_options_fuzz

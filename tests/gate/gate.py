@@ -49,6 +49,7 @@ def all_stages(quick):
         Stage("texts", [
             Command(["tests/format_test.sh"], what="format", skipped_code=77),
             Command([PYTHON, "tests/layers_test.py"], what="layers"),
+            Command([PYTHON, "tests/names_test.py"], what="names"),
             Command([PYTHON, "tests/module_abi_test.py"], what="ABI of the modules"),
             Command([PYTHON, "-B", "tests/gate/gate_test.py"], what="the gate itself"),
             Command(["node", "--test", "tests/browser/types.test.mjs"], what="types of the page"),

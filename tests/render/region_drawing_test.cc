@@ -23,7 +23,7 @@ using kinescope::testing::MixedScene;
 using kinescope::testing::Posture;
 using kinescope::testing::RandomScenes;
 
-std::unique_ptr<Renderer> With(const RegionSettings& regions) {
+std::unique_ptr<Renderer> RendererWith(const RegionSettings& regions) {
   RendererSettings settings;
   settings.regions = regions;
   settings.log = [](const std::string&) {};
@@ -35,11 +35,11 @@ std::unique_ptr<Renderer> With(const RegionSettings& regions) {
 std::unique_ptr<Renderer> Whole() {
   RegionSettings off;
   off.is_off = true;
-  return With(off);
+  return RendererWith(off);
 }
 
 TEST(RegionDrawing, GivesTheBytesOfWholePictures) {
-  const auto whole = Whole(), parts = With({});
+  const auto whole = Whole(), parts = RendererWith({});
   constexpr int kViews = 4, kPictures = 6, kLargest = 320;
   RandomScenes scenes(1);
   std::array<Image, 2> drawn;  // in turns, as those of a clip: what they have already stays
@@ -72,10 +72,10 @@ void RenderThrice(Renderer& renderer, const PictureSpec& spec) {
 TEST(RegionDrawing, FindsAnActorThatIsOutsideOfItsPart) {
   RegionSettings regions;
   regions.check_every = 1;
-  RenderThrice(*With(regions), OfSize(320, 320));
+  RenderThrice(*RendererWith(regions), OfSize(320, 320));
   regions.margin_px = -60;
   try {
-    RenderThrice(*With(regions), OfSize(320, 320));
+    RenderThrice(*RendererWith(regions), OfSize(320, 320));
     FAIL() << "nothing was found";
   } catch (const RenderError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("person 0"));
@@ -86,7 +86,7 @@ TEST(RegionDrawing, LeavesNothingOfThePictureBefore) {
   const PictureSpec spec = OfSize(333, 250);
   SceneState empty;
   empty.liveness = Liveness::kLive;
-  const auto renderer = With({});
+  const auto renderer = RendererWith({});
   RenderThrice(*renderer, spec);
   const Image floor = MakeRenderer()->Render(empty, FrontCamera(), spec);
   EXPECT_TRUE(Compare(floor, renderer->Render(empty, FrontCamera(), spec)).equal());
@@ -171,7 +171,7 @@ std::vector<Extreme> Extremes() {
 }
 
 TEST(RegionDrawing, GivesTheBytesOfWholePicturesOfWhatIsNotOrdinary) {
-  const auto whole = Whole(), parts = With({});
+  const auto whole = Whole(), parts = RendererWith({});
   Image image;
   for (Extreme& extreme : Extremes()) {
     PictureSpec calm_spec = extreme.spec;
@@ -206,7 +206,7 @@ std::vector<PictureSpec> TiledAndOtherSizes() {
 }
 
 TEST(RegionDrawing, IsTheSameInTilesViewsAndAllSizesInTurn) {
-  const auto parts = With({});
+  const auto parts = RendererWith({});
   for (int round = 0; round < 2; ++round) {
     for (const PictureSpec& spec : TiledAndOtherSizes()) {
       RenderThrice(*parts, spec);

@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <link.h>
+#include <sched.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -511,6 +514,36 @@ TEST(Watchdog, ReportsOnceEachWorkThatExceedsItsLimit) {
     ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return said.size() == 2; }));
   }
   EXPECT_THAT(said, ::testing::ElementsAre("short limit", "again"));
+}
+
+// As at a low priority beside a build. Nine threads share one core.
+TEST(Watchdog, GivesMoreTimeWhereThreadsWaitForACore) {
+  cpu_set_t all, one;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (std::size_t core = 0; CPU_COUNT(&one) == 0; ++core) {
+    if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
+  }
+  ASSERT_EQ(::sched_setaffinity(0, sizeof one, &one), 0);
+  std::atomic<bool> is_over = false;
+  std::vector<std::thread> busy;
+  for (int i = 0; i < 8; ++i) {
+    busy.emplace_back([&] {
+      while (!is_over) {
+      }
+    });
+  }
+  constexpr std::chrono::milliseconds kLimit(100);
+  const auto begin = Watchdog::Clock::now();
+  std::promise<Watchdog::Clock::time_point> said;
+  {
+    Watchdog dog([&](const std::string&) { said.set_value(Watchdog::Clock::now()); });
+    const Watchdog::Work work(dog, kLimit, [] { return "busy"; });
+    EXPECT_GT(said.get_future().get() - begin, 2 * kLimit) << "1.25 limits, where no thread waits";
+  }
+  is_over = true;
+  for (std::thread& each : busy) each.join();
+  EXPECT_EQ(::sched_setaffinity(0, sizeof all, &all), 0);
 }
 
 TEST(Renderer, RejectsAnUnknownBackEndAndListsTheKnownOnes) {

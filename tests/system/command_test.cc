@@ -16,9 +16,9 @@
 
 #include "render/image/compare.h"
 #include "render/image/png_file.h"
-#include "server/app/commands.h"
 #include "server/picture/view_options.h"
 #include "tests/process.h"
+#include "tests/server/app/all_commands.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
@@ -181,6 +181,24 @@ TEST(Command, ReportsThatItCannotRender) {
   EXPECT_FALSE(fs::exists(folder.path() / "a.png"));
 }
 
+TEST(Command, SaysHowToBuildTheProgramThatIsNotThereYet) {
+  // As ./demo has it while the page is there and the rest is being built.
+  const TempFolder folder;
+  const fs::path program = fs::path("libexec") / "kinescope" / "kinescope";
+  fs::create_directories(folder / "bin");
+  fs::create_directories((folder / program).parent_path());
+  fs::copy(testing::KinescopePath(), folder / "bin/kinescope");
+  fs::copy(fs::path(testing::KinescopePath()).parent_path().parent_path() / program,
+           folder / program);
+  const auto there = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), folder / "bin/kinescope");
+    return RunProgram(arguments);
+  };
+  ExpectRefusal(there({"golden", "check"}), "cmake --build ");
+  EXPECT_EQ(there({"--help"}).out, Kinescope({"--help"}).out);
+  EXPECT_EQ(there({"render", "--help"}).exit_code, 0);
+}
+
 TEST(Command, RejectsInvalidOutputs) {
   ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "/nowhere/a.png"}), "/nowhere/a.png");
   ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.avi"}), "a.avi");
@@ -327,7 +345,7 @@ TEST(Command, PrintsHelpForEveryOptionOfEveryCommand) {
     if (command.run != nullptr) expected[before + command.name].emplace_back("config");
     for (const app::Command& part : command.parts) self(part, before + command.name + " ", self);
   };
-  for (const app::Command& command : app::AllCommands()) add(command, "", add);
+  for (const app::Command& command : testing::AllCommands()) add(command, "", add);
 
   std::set<std::string> met;
   std::vector<std::string> open = {""};  // commands whose help has not been read

@@ -1,7 +1,11 @@
 #!/usr/bin/env bash
-# What ./demo builds contains the program that it starts. tests/system/demo_targets_test.sh BUILD_FOLDER
+# What ./demo builds before its page is there contains the programs that it starts, and no other. tests/system/demo_targets_test.sh BUILD_FOLDER
 set -euo pipefail
-line=$(grep '^build "$preset" ' "$(dirname "$0")/../../demo")
+line=$(grep -m 1 '^build "$preset" ' "$(dirname "$0")/../../demo")
 read -ra targets <<< "${line#build \"\$preset\" }"
-ninja -C "$1" -t commands "${targets[@]}" | grep -- '-o bin/kinescope ' > /dev/null ||
-  { echo "FAILED: '${targets[*]}' does not build bin/kinescope"; exit 1; }
+commands=$(ninja -C "$1" -t commands "${targets[@]}")
+builds() { grep -q -- "-o $1 " <<< "$commands"; }
+for program in bin/kinescope libexec/kinescope/kinescope; do
+  builds "$program" || { echo "FAILED: '${targets[*]}' does not build $program"; exit 1; }
+done
+! builds libexec/kinescope/kinescope_tools || { echo "FAILED: '${targets[*]}' builds libexec/kinescope/kinescope_tools, which the page does not need"; exit 1; }

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Runs the commands in the documents. Usage: docs_test.py PROGRAM SETUP RECORDING
+"""Runs the commands in the documents. Usage: docs_test.py PROGRAM SETUP RECORDING [--but] [DOCUMENT...]
 
 PROGRAM: the built kinescope. SETUP: setup.sh of the devel space; "" without ROS. RECORDING: the file that replaces
-recording.mvnx; commands that need it are reported as skipped if it does not exist.
+recording.mvnx; commands that need it are reported as skipped if it does not exist. DOCUMENT: only these; with --but, all others.
 The test fails on a command that it cannot run, because documents may contain only tested commands. It also fails on a
 document that is missing or has no commands, and on a command that is never run but not listed in NEVER_RUN.
 """
 import collections
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -19,7 +20,7 @@ import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM, SETUP, RECORDING = sys.argv[1:4]
+PROGRAM, SETUP, RECORDING, *WHICH = sys.argv[1:]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/golden.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/many_machines.md", "docs/motion.md", "docs/page.md", "docs/pictures.md", "docs/pose.md", "docs/rviz_files.md", "docs/urdf.md",
              "tests/bench/README.md", "tests/soak/README.md"]
 # Document -> first words of its commands that this test never runs.
@@ -38,6 +39,9 @@ NEVER_RUN = {
 }
 os.environ["CI"] = ""  # as on a person's machine: golden pictures are accepted there
 os.environ["ROS_MASTER_URI"] = "http://127.0.0.1:1"  # leaves a running ROS master alone
+AT_ONCE = 2  # commands; some of them wait for a simulated suit
+# The golden cases that the commands name, and some of each kind: `ctest -R golden_images` draws all of them.
+GOLDEN_CASES = ["lift_bend_right", "no_data", "lift_views_dark", "markers", "pose_one_leg", "walk_clip"]
 passed, skipped, failed = 0, 0, 0
 
 
@@ -52,8 +56,9 @@ def commands(document):
                 yield line.split(" #")[0].strip(), words
 
 
-def free_port(kind, after=iter(range(os.getpid(), sys.maxsize))):
-    """Below the range from which the kernel gives ports to others who ask for any, so that it stays free."""
+def free_port(kind, after=iter(range(100 * os.getpid(), sys.maxsize))):
+    """Below the range from which the kernel gives ports to others who ask for any, so that it stays free. Each process that runs this
+    test begins elsewhere."""
     end = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
     for i in after:
         port = 10000 + i % (end - 10000)
@@ -291,42 +296,63 @@ def fail(document, problem):
     print(f"FAILED  {document}: {problem}")
 
 
-for path in [*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *TOP.glob("tests/*/*.md")]:
-    name = str(path.relative_to(TOP))
-    if name not in DOCUMENTS and re.search(r"^```(sh|bash)$", path.read_text(), re.M):
-        fail(name, "contains commands, but is not in DOCUMENTS")
+def check_lists():
+    """Documents with commands are in DOCUMENTS, and the tests that docs/security.md names are there."""
+    for path in [*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *TOP.glob("tests/*/*.md")]:
+        name = str(path.relative_to(TOP))
+        if name not in DOCUMENTS and re.search(r"^```(sh|bash)$", path.read_text(), re.M):
+            fail(name, "contains commands, but is not in DOCUMENTS")
 
-TESTS = "\n".join(path.read_text() for kind in ("*.cc", "*.py") for path in (TOP / "tests").rglob(kind) if "node_modules" not in path.parts)
-for name in re.findall(r"`([^`]+)`(?=[^|`]*(?:`[^`]+`[^|`]*)*\|$)", (TOP / "docs/security.md").read_text(), re.M):
-    if re.fullmatch(r"[\w.]+\.test\.mjs", name):
-        found = (TOP / "tests/browser" / name).exists()
-    elif name.endswith("_fuzz"):
-        found = (TOP / "tests/fuzz" / (name + ".cc")).exists()
-    elif name.startswith("test_"):
-        found = f"def {name}(" in TESTS
-    else:
-        suite, _, case = name.partition(".")
-        found = re.search(rf"TEST(_F|_P)?\({suite},\s+{case}\)", TESTS) is not None
-    if not found:
-        fail("docs/security.md", f"there is no test {name}")
+    tests = "\n".join(path.read_text() for kind in ("*.cc", "*.py") for path in (TOP / "tests").rglob(kind) if "node_modules" not in path.parts)
+    for name in re.findall(r"`([^`]+)`(?=[^|`]*(?:`[^`]+`[^|`]*)*\|$)", (TOP / "docs/security.md").read_text(), re.M):
+        if re.fullmatch(r"[\w.]+\.test\.mjs", name):
+            found = (TOP / "tests/browser" / name).exists()
+        elif name.endswith("_fuzz"):
+            found = (TOP / "tests/fuzz" / (name + ".cc")).exists()
+        elif name.startswith("test_"):
+            found = f"def {name}(" in tests
+        else:
+            suite, _, case = name.partition(".")
+            found = re.search(rf"TEST(_F|_P)?\({suite},\s+{case}\)", tests) is not None
+        if not found:
+            fail("docs/security.md", f"there is no test {name}")
 
-for document in DOCUMENTS:
+
+def write_golden_folder(folder):
+    """GOLDEN_CASES and what they read, as a person has them who begins with golden images."""
+    def is_of_another_case(_, names):
+        return [name for name in names if name.split(".")[0].split("@")[0] not in (*GOLDEN_CASES, "golden")
+                and name.endswith((".yaml", ".png"))]
+    shutil.copytree(TOP / "golden_images", folder / "golden_images", ignore=is_of_another_case)
+    lock = folder / "golden_images/golden.lock"
+    content = json.loads(lock.read_text())
+    content["cases"] = {name: case for name, case in content["cases"].items() if name.split("@")[0] in GOLDEN_CASES}
+    lock.write_text(json.dumps(content))
+
+
+def try_command(line, words):
+    """What attempt() tells, in a folder of its own."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        write_golden_folder(folder)
+        shutil.copytree(TOP / "launch", folder / "launch")
+        try:
+            return attempt(line, words, name)
+        except subprocess.TimeoutExpired:
+            return "timeout"
+
+
+def check_document(document, pool):
+    global passed, skipped
     if not (TOP / document).exists():
         fail(document, "file not found; update DOCUMENTS")
-        continue
-    tried, expected = 0, collections.Counter(NEVER_RUN.get(document, []))
-    for line, words in commands(document):
-        tried += 1
-        with tempfile.TemporaryDirectory() as folder:
-            for name in ("golden_images", "launch"):
-                shutil.copytree(TOP / name, pathlib.Path(folder) / name)
-            try:
-                problem = attempt(line, words, folder)
-            except subprocess.TimeoutExpired:
-                problem = "timeout"
+        return
+    expected = collections.Counter(NEVER_RUN.get(document, []))
+    found = list(commands(document))
+    for (line, _), problem in zip(found, pool.map(lambda each: try_command(*each), found)):
         if problem is None:
             passed += 1
-            print(f"ok      {document}: {line}")
+            print(f"ok      {document}: {line}", flush=True)
         elif problem.startswith(("skip:", "never:")):
             skipped += 1
             kind, reason = problem.split(": ", 1)
@@ -338,10 +364,23 @@ for document in DOCUMENTS:
                     fail(document, f"{line}\n        is never run, but not listed in NEVER_RUN")
         else:
             fail(document, f"{line}\n        {problem}")
-    if tried == 0:
+    if not found:
         fail(document, "contains no commands; expected code blocks in language sh")
     for word, left in expected.items():
         if word is not None and left > 0:
             fail(document, f"'{word}' is missing or is run now; remove it from NEVER_RUN")
+
+
+is_but = WHICH[:1] == ["--but"]
+named = WHICH[1:] if is_but else WHICH or DOCUMENTS
+for name in named:
+    if name not in DOCUMENTS:
+        fail(name, "is not in DOCUMENTS")
+if is_but or not WHICH:
+    check_lists()
+with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as commands_at_once:
+    for each in DOCUMENTS:
+        if (each in named) != is_but:
+            check_document(each, commands_at_once)
 print(f"{passed} passed, {failed} failed, {skipped} skipped")
 sys.exit(1 if failed else 0)

@@ -8,7 +8,7 @@ room=$(mktemp -d)
 trap 'rm -rf "$room"' EXIT
 tree=$room/tree
 mkdir "$tree"
-(cd "$top" && cp -r check demo packages.txt cmake CMakePresets.json "$tree" && mkdir "$tree/web" && cp web/package*.json "$tree/web")
+(cd "$top" && cp -r check demo packages.txt cmake CMakePresets.json "$tree" && mkdir "$tree/web" && cp web/package*.json web/fetch_libraries.sh "$tree/web")
 chmod -R a+rX "$room"
 
 fail() { printf 'FAILED: %s\n' "$*"; exit 1; }
@@ -92,6 +92,32 @@ end "$holder"
 end "$child"
 echo 'ok: nothing that a test leaves behind keeps the lock'
 
+# Without npm the libraries of the page come from the registry that npm's settings name, and only with the sum of the lock file.
+page=$room/page registry=$room/registry
+mkdir -p "$page/src" "$registry/made/-" "$room/home"
+cp "$top/web/fetch_libraries.sh" "$page"
+echo 'export const made = 1' > "$page/src/made.js"
+tar -czf "$registry/made/-/made-1.2.3.tgz" -C "$page" --transform 's/^src/package/' src
+lock() {
+  printf '{\n  "packages": {\n    "node_modules/made": {\n      "version": "1.2.3",\n      "integrity": "sha512-%s"\n    }\n  }\n}\n' "$1" > "$page/package-lock.json"
+}
+exec {served}< <(exec /usr/bin/python3 -u -m http.server 0 --bind 127.0.0.1 --directory "$registry" 2>/dev/null)
+web_server=$!
+read -r -u "$served" line
+echo "registry=${line##*(}" | sed 's|/) .*|/|' > "$room/home/.npmrc"
+fetch_without_npm() { env -u npm_config_registry -u NPM_CONFIG_REGISTRY HOME="$room/home" "$@" sh "$page/fetch_libraries.sh" '' /none/npm; }
+lock "$(head -c 64 /dev/zero | base64 -w 0)"
+fetch_without_npm 2> "$room/fetched" && fail "a package with another sum than that of the lock file is taken"
+grep -q 'made-1.2.3.tgz has another SHA-512' "$room/fetched" || fail "a wrong sum is not reported: $(cat "$room/fetched")"
+[ ! -e "$page/node_modules/made" ] || fail "a package with a wrong sum is unpacked"
+lock "$(sha512sum "$registry/made/-/made-1.2.3.tgz" | cut -d ' ' -f 1 | tr a-f A-F | basenc --base16 -d | base64 -w 0)"
+fetch_without_npm npm_config_registry=http://127.0.0.1:1 2> /dev/null && fail "npm_config_registry does not come before ~/.npmrc"
+fetch_without_npm || fail "the libraries of the page are not fetched without npm"
+cmp -s "$page/src/made.js" "$page/node_modules/made/made.js" || fail "the library of the page is not in its place"
+end "$web_server"
+fetch_without_npm || fail "libraries that are there are fetched again"
+echo 'ok: the libraries of the page are fetched without npm'
+
 if ! unshare --user --map-root-user --mount --net true 2>/dev/null; then
   echo 'skipped: no network, full disk (the kernel does not allow name spaces)'
   exit 0
@@ -99,6 +125,7 @@ fi
 alone() { unshare --user --map-root-user --mount --net "$@"; }
 expect "check the network connection" alone env DPKG_ADMINDIR="$room/dpkg" ./check
 expect "check the network connection" alone bash -c '. cmake/prepare.sh; export npm_config_fetch_retries=0 npm_config_cache='"$room"'/npm; install_npm web'
+expect "check the network connection" alone bash -c '. cmake/prepare.sh; export npm_config_fetch_retries=0 npm_config_cache='"$room"'/npm; install_page_libraries'
 expect "MiB needed: free disk space, or clone to another disk" alone bash -c '
   mkdir -p build && mount -t tmpfs -o size=60m tmpfs build || exit 9
   . cmake/prepare.sh; take_the_lock; build asan'

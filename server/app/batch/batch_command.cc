@@ -319,15 +319,13 @@ int Check(const BatchOptions& options) {
 
 Command BatchCommand() {
   const auto values = std::make_shared<BatchOptions>();
-  Command command;
-  command.name = "batch";
+  Command command = CommandNamed("batch");
   command.shows_progress = true;
-  command.about =
-      "Does the jobs of a list: render, loads, convert and golden, on one machine or many.\n"
-      "  kinescope jobs 'trials/*.mvnx' --out 'clips/{source}.mp4' > jobs.jsonl\n"
-      "  kinescope batch jobs.jsonl --jobs 4\n"
-      "  kinescope batch jobs.jsonl --shard 3/16      (on each of 16 machines its own)\n"
-      "  kinescope batch jobs.jsonl --check           (is all of it there?)";
+  command.about +=
+      "\n  kinescope jobs 'trials/*.mvnx' --out 'clips/{source}.mp4' > jobs.jsonl"
+      "\n  kinescope batch jobs.jsonl --jobs 4"
+      "\n  kinescope batch jobs.jsonl --shard 3/16      (on each of 16 machines its own)"
+      "\n  kinescope batch jobs.jsonl --check           (is all of it there?)";
   values->List(command.options);
   command.positionals = {"list"};
   command.footer =

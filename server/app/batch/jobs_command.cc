@@ -240,13 +240,11 @@ int WriteJobs(const JobsOptions& options, const std::vector<std::string>& words)
 
 Command JobsCommand() {
   const auto values = std::make_shared<JobsOptions>();
-  Command command;
-  command.name = "jobs";
-  command.about =
-      "Writes the list of jobs for kinescope batch to standard output: one job per recording.\n"
-      "  kinescope jobs 'trials/*.mvnx' --camera front,side --out 'clips/{source}-{camera}.mp4'\n"
-      "  kinescope jobs 'trials/*.mvnx' --command loads --json 'loads/{source}.json' \\\n"
-      "    --labels '{person}_{condition}_{trial}'";
+  Command command = CommandNamed("jobs");
+  command.about +=
+      "\n  kinescope jobs 'trials/*.mvnx' --camera front,side --out 'clips/{source}-{camera}.mp4'"
+      "\n  kinescope jobs 'trials/*.mvnx' --command loads --json 'loads/{source}.json' \\"
+      "\n    --labels '{person}_{condition}_{trial}'";
   values->List(command.options);
   command.footer =
       "All other options are those of the command, the same for every job (kinescope render "

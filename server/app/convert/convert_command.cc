@@ -309,13 +309,11 @@ std::vector<std::string> Convert(ConvertOptions& options) {
 
 Command ConvertCommand() {
   const auto values = std::make_shared<ConvertOptions>();
-  Command command;
-  command.name = "convert";
+  Command command = CommandNamed("convert");
   command.shows_progress = true;
-  command.about =
-      "Converts a motion from any source into files for other programs: CSV tables and MVNX 4.\n"
-      "  kinescope convert take.pcap --out take.csv --out take.mvnx\n"
-      "  kinescope convert udp://:9763 --out live.mvnx      (until Ctrl-C)";
+  command.about +=
+      "\n  kinescope convert take.pcap --out take.csv --out take.mvnx"
+      "\n  kinescope convert udp://:9763 --out live.mvnx      (until Ctrl-C)";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source", "out"};

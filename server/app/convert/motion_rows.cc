@@ -1,8 +1,8 @@
 #include "server/app/convert/motion_rows.h"
 
 #include <array>
-#include <limits>
 
+#include "core/unknown.h"
 #include "server/table/load_rows.h"
 #include "urdf/anatomical_angles.h"
 
@@ -14,8 +14,7 @@ using Eigen::Vector3d;
 using urdf::AngleSequence;
 using urdf::At;
 
-constexpr double kUnknownValue = std::numeric_limits<double>::quiet_NaN();
-const Vector3d kUnknownVector = Vector3d::Constant(kUnknownValue);
+const Vector3d kUnknownVector = Vector3d::Constant(kUnknown);
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
@@ -122,9 +121,8 @@ void VisitGround(const PersonState& person, MotionCells& cells) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const char* const name = kFeet[At(side)];
     const auto& sent = person.sample.foot_contacts;
-    cells.Number({name, "heel_contact", "", ""}, sent ? (*sent)[At(side)].heel : kUnknownValue);
-    cells.Number({name, "forefoot_contact", "", ""},
-                 sent ? (*sent)[At(side)].forefoot : kUnknownValue);
+    cells.Number({name, "heel_contact", "", ""}, sent ? (*sent)[At(side)].heel : kUnknown);
+    cells.Number({name, "forefoot_contact", "", ""}, sent ? (*sent)[At(side)].forefoot : kUnknown);
     const FootForce& foot = forces.feet[At(side)];
     cells.Number({name, "on_floor", "", ""}, foot.touches_floor ? 1 : 0);
     VectorCells(name, "force", "N", foot.force, cells);
@@ -188,7 +186,7 @@ void VisitLoads(const PersonState& person, MotionCells& cells) {
   cells.Number({"", "delay", "", "s"}, forces.delay_secs);
   cells.Number({"right_hand", "load", "", "kg"}, forces.hands[urdf::kRight].mass_kg);
   cells.Number({"left_hand", "load", "", "kg"}, forces.hands[urdf::kLeft].mass_kg);
-  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kUnknownValue, kUnknownValue});
+  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kUnknown, kUnknown});
   cells.Number({"l5_s1", "compression", "", "N"}, lumbar.compression);
   cells.Number({"l5_s1", "shear", "", "N"}, lumbar.shear);
   for (const int joint : urdf::kScoredJoints) {
@@ -205,8 +203,7 @@ void VisitTrackers(const PersonState& person, const std::bitset<urdf::kSegmentCo
     const bool is_here = person.sample.has_tracker.test(i);
     const TrackerState& tracker = person.sample.trackers[i];
     const bool has_rates = is_here && tracker.has_rates;
-    static const Quaterniond kUnknownTurn(kUnknownValue, kUnknownValue, kUnknownValue,
-                                          kUnknownValue);
+    static const Quaterniond kUnknownTurn(kUnknown, kUnknown, kUnknown, kUnknown);
     QuaternionCells(name, "sensor_orientation", is_here ? tracker.orientation : kUnknownTurn,
                     cells);
     VectorCells(name, "sensor_free_acceleration", "m_s2",

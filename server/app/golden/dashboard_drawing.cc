@@ -10,6 +10,7 @@
 #include "core/system/scratch_folder.h"
 #include "core/system/starts_with.h"
 #include "core/system/utf8.h"
+#include "server/app/command_table.h"
 #include "server/app/golden/page_browser.h"
 #include "server/app/process_group.h"
 #include "server/source/scheme.h"
@@ -60,7 +61,8 @@ class DashboardServer {
   }
 
   std::vector<std::string> CommandOf(const DashboardSpec& spec) const {
-    std::vector<std::string> command = {spec.program.string(),
+    const fs::path program = spec.program.empty() ? ProgramOf("serve") : spec.program;
+    std::vector<std::string> command = {program.string(),
                                         "serve",
                                         "--source=" + NameOf(spec),
                                         fmt::format("--stop_at={}", spec.time),

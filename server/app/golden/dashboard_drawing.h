@@ -22,7 +22,7 @@ struct DashboardSpec {
   bool is_dark = false;
   std::chrono::milliseconds limit = std::chrono::seconds(120);  // for server and page, each
   std::filesystem::path chromium;                               // ""; FindChromium()
-  std::filesystem::path program = "/proc/self/exe";
+  std::filesystem::path program;                                // ""; the one that has `serve`
 };
 
 /// Two drawings of the same moment by the same program are the same, byte by byte.

@@ -37,9 +37,7 @@ JobSettings GoldenJobOptions::Start(const std::string& folder, std::size_t cases
 GoldenSuite GoldenCaseOptions::Find() const { return FindGoldenSuite(*folder, *only); }
 
 Command GoldenCommand() {
-  Command command;
-  command.name = "golden";
-  command.about = "Compares pictures with the accepted ones";
+  Command command = CommandNamed("golden");
   command.parts = {GoldenCheckCommand(),  GoldenReviewCommand(), GoldenAcceptCommand(),
                    GoldenUpdateCommand(), GoldenNewCommand(),    GoldenKeysCommand(),
                    GoldenListCommand(),   GoldenStressCommand(), GoldenCompareCommand()};

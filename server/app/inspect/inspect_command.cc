@@ -236,7 +236,7 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
   return report;
 }
 
-bool Run(const InspectOptions& options) {
+bool RunInspect(const InspectOptions& options) {
   const mvn::InspectionReport report = Inspect(options);
   PrintText(stdout, *options.json ? ReportJson(report) : ReportText(report));
   return report.CanBeShown();
@@ -246,16 +246,13 @@ bool Run(const InspectOptions& options) {
 
 Command InspectCommand() {
   const auto values = std::make_shared<InspectOptions>();
-  Command command;
-  command.name = "inspect";
+  Command command = CommandNamed("inspect");
   command.shows_progress = true;
-  command.about =
-      "Lists the contents of a stream or a file: people, messages, rates, losses, errors";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source"};
   command.footer = "Exit code: 0 a person can be shown, 1 no person can be shown, 2 error.";
-  command.run = [values](options::OptionList&) { return Run(*values) ? 0 : 1; };
+  command.run = [values](options::OptionList&) { return RunInspect(*values) ? 0 : 1; };
   return command;
 }
 

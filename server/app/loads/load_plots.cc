@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/compression_limits.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
+#include "core/unknown.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
 #include "server/app/loads/report_text.h"
@@ -24,8 +24,6 @@ using render::Plot;
 using render::PlotCurve;
 using render::PlotPanel;
 using Points = std::vector<std::pair<double, double>>;
-
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 // Blue and vermilion of the palette by M. Okabe and K. Ito (2008), which all eyes tell apart, and a
 // grey; the dashes tell them apart in print.
@@ -52,7 +50,7 @@ Points CurveOf(const LoadTrial& trial, Value&& value) {
     const double secs = trial.SecsOf(sample.stamp_nanos);
     if (!points.empty() &&
         (secs < points.back().first || secs - points.back().first > loads::kLongestGapSecs)) {
-      points.emplace_back(points.back().first, kNoValue);
+      points.emplace_back(points.back().first, kUnknown);
     }
     if (points.empty() || secs >= points.back().first) points.emplace_back(secs, value(sample));
   }
@@ -82,7 +80,7 @@ void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t j
   curve.color = kInk;
   curve.points = CurveOf(trial, [joint](const TrialSample& sample) {
     const TrialSample::Joint& of = sample.joints[joint];
-    return of.band == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
+    return of.band == LoadClass::kUnknown ? kUnknown : static_cast<double>(of.ratio);
   });
   panel.curves = {std::move(curve)};
   panel.class_timeline = ClassTimelineOf(trial, joint);

@@ -309,12 +309,10 @@ bool Loads(LoadsOptions& options, const options::OptionList& list) {
 
 Command LoadsCommand() {
   const auto values = std::make_shared<LoadsOptions>();
-  Command command;
-  command.name = "loads";
+  Command command = CommandNamed("loads");
   command.shows_progress = true;
-  command.about =
-      "Computes the joint loads of a recording: table, CSV, JSON, plots, report.\n"
-      "  kinescope loads take.mvnx --hand_load both:10 --csv loads.csv --report report.html";
+  command.about +=
+      "\n  kinescope loads take.mvnx --hand_load both:10 --csv loads.csv --report report.html";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source"};

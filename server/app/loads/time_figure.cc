@@ -64,9 +64,9 @@ SvgDrawing::Points CompressionPoints(const LoadTrial& trial) {
   return points;
 }
 
-class CompressionPanel {
+class CompressionDrawing {
  public:
-  CompressionPanel(const LoadTrial& trial, const TimeScale& scale, double bottom)
+  CompressionDrawing(const LoadTrial& trial, const TimeScale& scale, double bottom)
       : trial_(trial), scale_(scale), bottom_(bottom) {
     const double peak = trial.compression().count > 0 ? trial.compression().most / kKilo : 0;
     top_kn_ =
@@ -197,7 +197,7 @@ std::string TimeFigure(const LoadTrial& trial, const TrialContext& context, doub
   drawing.Text(kAxisLeft, kCurveTop - 1,
                fmt::format("L5/S1 compression, kN; grey: ±{:g} %{}", 100 * kCompressionUncertainty,
                            has_shares ? "; below: height is share of time" : ""));
-  CompressionPanel(trial, scale, rows_top - 1.6).Draw(drawing);
+  CompressionDrawing(trial, scale, rows_top - 1.6).Draw(drawing);
   DrawMarks(context.marks, scale, rows_bottom, drawing);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     DrawRow(rows[i], rows_top + kTimelinePitchMm * static_cast<double>(i), scale, drawing);

@@ -142,9 +142,7 @@ struct ProbeOptions {
 
 Command ProbeCommand() {
   const auto values = std::make_shared<ProbeOptions>();
-  Command command;
-  command.name = "probe";
-  command.about = "Reports the rendering back-ends, encoders and ROS master of this machine";
+  Command command = CommandNamed("probe");
   values->List(command.options);
   command.footer = "Exit code: 0 a back-end works, 1 none works, 2 error.";
   command.run = [values](options::OptionList&) {

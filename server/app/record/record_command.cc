@@ -244,13 +244,10 @@ bool Record(const RecordOptions& options) {
 
 Command RecordCommand() {
   const auto values = std::make_shared<RecordOptions>();
-  Command command;
-  command.name = "record";
-  command.about =
-      "Records the stream as a capture (pcap) that Kinescope plays and Wireshark opens.\n"
-      "Each datagram becomes one UDP packet with its addresses and times, also when it came over "
-      "TCP "
-      "or from a file of raw datagrams.";
+  Command command = CommandNamed("record");
+  command.about +=
+      "\nEach datagram becomes one UDP packet with its addresses and times, also when it came over "
+      "TCP or from a file of raw datagrams.";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source", "out"};

@@ -95,16 +95,14 @@ Command RenderCommand() { return RenderCommand(std::make_shared<DrawPools>()); }
 
 Command RenderCommand(const std::shared_ptr<DrawPools>& pools) {
   const auto values = std::make_shared<RenderOptions>();
-  Command command;
-  command.name = "render";
+  Command command = CommandNamed("render");
   command.shows_progress = true;
-  command.about =
-      "Renders recordings to pictures and clips.\n"
-      "  kinescope render take.mvnx --time 2.5 --out figure.png\n"
-      "  kinescope render take.mvnx --out clip.mp4 --out clip.webm\n"
-      "  kinescope render *.mvnx --camera front,top --out '{source}-{camera}.mp4'\n"
-      "  kinescope render take.mvnx --start 2 --seconds 3 --out 'frames/%05d.png'\n"
-      "Outputs that are up to date are skipped.";
+  command.about +=
+      "\n  kinescope render take.mvnx --time 2.5 --out figure.png"
+      "\n  kinescope render take.mvnx --out clip.mp4 --out clip.webm"
+      "\n  kinescope render *.mvnx --camera front,top --out '{source}-{camera}.mp4'"
+      "\n  kinescope render take.mvnx --start 2 --seconds 3 --out 'frames/%05d.png'"
+      "\nOutputs that are up to date are skipped.";
   values->List(command.options);
   command.options.HasNoEffect(
       "fps", "on a single picture; name a clip or a sequence in --out",

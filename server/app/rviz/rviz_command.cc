@@ -147,9 +147,7 @@ std::string UsualConfig() {
 
 Command RvizCommand() {
   const auto values = std::make_shared<RvizOptions>();
-  Command command;
-  command.name = "rviz";
-  command.about = "Writes an RViz configuration for the nodes that run, and starts RViz with it";
+  Command command = CommandNamed("rviz");
   values->List(command.options);
   command.footer = "Show a file that was written: rviz -d FILE";
   command.run = [values](options::OptionList&) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/command_table.h"
 #include "server/picture/child_process.h"
 
 namespace kinescope::app {
@@ -14,10 +15,10 @@ namespace {
 
 constexpr std::chrono::minutes kReportTimeout(10), kClipTimeout(60);
 
-// `what`: that it makes.
-void RunOurselves(const char* what, std::vector<std::string> arguments, const OptionTexts& options,
-                  std::chrono::minutes longest, const Workshop::Progress& progress) {
-  arguments.insert(arguments.begin(), "/proc/self/exe");
+// `what`: that it makes. `arguments`: the command first.
+void RunCommand(const char* what, std::vector<std::string> arguments, const OptionTexts& options,
+                std::chrono::minutes longest, const Workshop::Progress& progress) {
+  arguments.insert(arguments.begin(), ProgramOf(arguments.front()).string());
   for (const auto& [name, value] : options) arguments.push_back("--" + name + "=" + value);
   const ChildResult result =
       RunChild(arguments, longest, [&progress] { return progress.is_wanted(); });
@@ -36,15 +37,15 @@ void RunOurselves(const char* what, std::vector<std::string> arguments, const Op
 
 void MakeReport(const std::filesystem::path& recording, const std::filesystem::path& report,
                 const OptionTexts& options, const Workshop::Progress& progress) {
-  RunOurselves("report", {"loads", recording.string(), "--report", report.string()}, options,
-               kReportTimeout, progress);
+  RunCommand("report", {"loads", recording.string(), "--report", report.string()}, options,
+             kReportTimeout, progress);
 }
 
 void MakeRecordedClip(const std::filesystem::path& recording, const std::filesystem::path& clip,
                       const OptionTexts& options, const Workshop::Progress& progress) {
-  RunOurselves("clip",
-               {"render", recording.string(), "--out", clip.string(), "--force", "--no_sidecar"},
-               options, kClipTimeout, progress);
+  RunCommand("clip",
+             {"render", recording.string(), "--out", clip.string(), "--force", "--no_sidecar"},
+             options, kClipTimeout, progress);
 }
 
 }  // namespace kinescope::app

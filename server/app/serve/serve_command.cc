@@ -73,11 +73,9 @@ void ReadParameters(const ServeOptions& options, const std::string& command,
       options::Channel::kParameter, list);
 }
 
-Command Make(const char* name, const char* about, bool with_page) {
+Command Make(const char* name, bool with_page) {
   const auto values = std::make_shared<ServeOptions>();
-  Command command;
-  command.name = name;
-  command.about = about;
+  Command command = CommandNamed(name);
   if (with_page) {
     values->List(command.options);
   } else {
@@ -115,12 +113,8 @@ Command Make(const char* name, const char* about, bool with_page) {
 
 }  // namespace
 
-Command ServeCommand() {
-  return Make("serve", "Shows a source live: ROS topics, pictures and a web page", true);
-}
+Command ServeCommand() { return Make("serve", true); }
 
-Command BridgeCommand() {
-  return Make("bridge", "Publishes a source to ROS; draws nothing", false);
-}
+Command BridgeCommand() { return Make("bridge", false); }
 
 }  // namespace kinescope::app

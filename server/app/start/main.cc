@@ -1,10 +1,11 @@
 // The program that people start. It compares two pictures itself, which tests do thousands of
-// times; for everything else it becomes the program of all commands, whose ninety libraries take
-// longer to load than two pictures to compare.
+// times; for everything else it becomes the program that has the command, whose ninety libraries
+// take longer to load than two pictures to compare.
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -16,9 +17,9 @@
 #include <string>
 #include <system_error>
 
-#include "core/system/install_paths.h"
 #include "core/system/standard_streams.h"
 #include "core/system/utf8.h"
+#include "server/app/command_table.h"
 #include "server/app/golden/golden_compare.h"
 #include "server/app/print.h"
 
@@ -58,12 +59,17 @@ int Compare(const char* one, const char* other) {
   return verdict.is_same ? 0 : 1;
 }
 
+// The command is the first word that names one: words before it, such as "help", are for the
+// program that has it.
+std::string CommandOf(int argc, char** argv) {
+  const auto words = argv + argc;
+  const auto word = std::find_if(argv + std::min(argc, 1), words, [](const char* each) {
+    return app::FindCommand(each) != nullptr;
+  });
+  return word == words ? "" : *word;
+}
+
 [[noreturn]] void Become(const std::filesystem::path& program, char** argv) {
-  if (program.empty()) {
-    throw std::runtime_error(
-        "libexec/kinescope/kinescope was not found beside bin; build or install Kinescope "
-        "completely");
-  }
   ::execv(program.c_str(), argv);
   throw std::runtime_error("cannot start " + program.string() + ": " +
                            std::generic_category().message(errno));
@@ -73,7 +79,7 @@ int Compare(const char* one, const char* other) {
 
 int main(int argc, char** argv) {
   try {
-    if (!IsPlainComparison(argc, argv)) Become(FindProgram(), argv);
+    if (!IsPlainComparison(argc, argv)) Become(app::ProgramOf(CommandOf(argc, argv)), argv);
     OpenStandardStreams();
     std::signal(SIGPIPE, SIG_IGN);
     return Compare(argv[3], argv[4]);

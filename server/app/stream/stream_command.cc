@@ -248,10 +248,8 @@ bool Stream(const StreamOptions& o) {
 
 Command StreamCommand() {
   const auto values = std::make_shared<StreamOptions>();
-  Command command;
-  command.name = "stream";
+  Command command = CommandNamed("stream");
   command.shows_progress = true;
-  command.about = "Sends a source as a suit would, over UDP or TCP, with faults on request";
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source"};

@@ -116,13 +116,11 @@ bool Strip(const StripOptions& options) {
 
 Command StripCommand() {
   const auto values = std::make_shared<StripOptions>();
-  Command command;
-  command.name = "strip";
+  Command command = CommandNamed("strip");
   command.shows_progress = true;
-  command.about =
-      "Reads the frame code out of clips and pictures: the sample that each frame shows.\n"
-      "  kinescope render walk.mvnx --overlay frame_code --out walk.mp4\n"
-      "  kinescope strip walk.mp4 --out frames.csv";
+  command.about +=
+      "\n  kinescope render walk.mvnx --overlay frame_code --out walk.mp4"
+      "\n  kinescope strip walk.mp4 --out frames.csv";
   values->List(command.options);
   command.positionals = {"files"};
   command.required = {"files"};

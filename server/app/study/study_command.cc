@@ -112,14 +112,11 @@ int RunStudy(const StudyOptions& options) {
 
 Command StudyCommand() {
   const auto values = std::make_shared<StudyOptions>();
-  Command command;
-  command.name = "study";
+  Command command = CommandNamed("study");
   command.shows_progress = true;
-  command.about =
-      "Says what the trials of a study have in common: loads by person, condition and joint, what "
-      "failed and why.\n"
-      "  kinescope study 'loads.results*.jsonl' --report study.html --csv study.csv\n"
-      "  kinescope study 'loads/*.json' --labels '{person}_{condition}_{trial}' --csv study.csv";
+  command.about +=
+      "\n  kinescope study 'loads.results*.jsonl' --report study.html --csv study.csv"
+      "\n  kinescope study 'loads/*.json' --labels '{person}_{condition}_{trial}' --csv study.csv";
   values->List(command.options);
   command.positionals = {"results"};
   command.required = {"results"};

@@ -15,6 +15,7 @@
 #include "core/system/input_file.h"
 #include "core/system/json_parse.h"
 #include "core/system/json_text.h"
+#include "core/unknown.h"
 #include "server/app/loads/load_files.h"
 #include "server/table/load_rows.h"
 
@@ -22,8 +23,6 @@ namespace kinescope::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // What stands between the samples and the rest. In a text of JSON a quotation mark has a backslash
 // before it, so this is no part of one.

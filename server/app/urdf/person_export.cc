@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <regex>
+#include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/system/errors.h"
 #include "render/image/new_file.h"
@@ -30,12 +31,20 @@ void Write(urdf::HumanModel& human, const PersonFiles& files, const fs::path& fo
   render::WriteNewFile(folder / "person.urdf", urdf::WriteUrdf(human));
 }
 
+// A letter of ASCII, then letters, digits, _ and -.
+bool IsPackageName(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  return !name.empty() && is_letter(name.front()) &&
+         std::all_of(name.begin(), name.end(), [&](char c) {
+           return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
+         });
+}
+
 }  // namespace
 
 void ExportPerson(urdf::HumanModel human, const PersonFiles& meshes, const fs::path& folder,
                   const std::string& package) {
-  static const std::regex kPackageName("[A-Za-z][A-Za-z0-9_-]*");
-  if (!package.empty() && !std::regex_match(package, kPackageName)) {
+  if (!package.empty() && !IsPackageName(package)) {
     throw UsageError(fmt::format(
         "--package={}: expected the name of a ROS package: a letter, then letters, digits, _ and -",
         package));

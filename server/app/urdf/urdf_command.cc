@@ -299,10 +299,7 @@ Command PictureCommand() {
 
 Command UrdfCommand() {
   const auto values = std::make_shared<WriteOptions>();
-  Command command;
-  command.name = "urdf";
-  command.about =
-      "Writes the URDF of a person; `urdf check FILE` checks a URDF, `urdf picture FILE` draws one";
+  Command command = CommandNamed("urdf");
   values->List(command.options);
   command.positionals = {"source"};
   command.run = [values](options::OptionList&) {

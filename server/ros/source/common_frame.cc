@@ -10,7 +10,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::int64_t kPatienceNanos = 2 * kNanosPerSecond;
+constexpr std::int64_t kFrameTimeoutNanos = 2 * kNanosPerSecond;
 
 bool AreSame(const urdf::Pose& a, const urdf::Pose& b) {
   constexpr double kMetres = 1e-3, kRadians = 1e-3;
@@ -84,7 +84,7 @@ void CommonFrame::Hold(Root& known, const std::string& root, const urdf::Pose& p
     known.moved_nanos = 0;
     return;
   }
-  if (!known.problem.empty() || now_nanos - known.moved_nanos < kPatienceNanos) return;
+  if (!known.problem.empty() || now_nanos - known.moved_nanos < kFrameTimeoutNanos) return;
   Tell(known,
        fmt::format("people are in the frame '{}', which moves: they are placed where it was first, "
                    "so that their loads are those on a floor that stands",
@@ -100,7 +100,7 @@ void CommonFrame::Tell(Root& known, std::string problem, bool& is_told) const {
 std::vector<std::string> CommonFrame::problems() const {
   std::vector<std::string> all;
   for (const auto& [name, root] : roots_) {
-    const bool has_people = newest_nanos_ - root.brought_nanos < kPatienceNanos;
+    const bool has_people = newest_nanos_ - root.brought_nanos < kFrameTimeoutNanos;
     if (has_people && !root.problem.empty()) all.push_back(root.problem);
   }
   return all;
@@ -110,7 +110,7 @@ std::vector<std::string> CommonFrame::problems() const {
 void CommonFrame::NoteLost(Root& known, const std::string& root, const std::string& of_first,
                            std::int64_t now_nanos) const {
   if (known.lost_nanos == 0 || now_nanos < known.lost_nanos) known.lost_nanos = now_nanos;
-  if (known.is_told_lost || now_nanos - known.lost_nanos < kPatienceNanos) return;
+  if (known.is_told_lost || now_nanos - known.lost_nanos < kFrameTimeoutNanos) return;
   const std::string way_out =
       root == of_first
           ? fmt::format("; if that is right, give --reference_frame {}", PrintableLine(root))

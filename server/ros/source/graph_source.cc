@@ -23,6 +23,7 @@
 #include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/person_messages.h"
+#include "server/ros/raw_message.h"
 #include "server/ros/ros_clock.h"
 #include "server/ros/source/common_frame.h"
 #include "server/ros/source/link_states_person.h"
@@ -41,7 +42,6 @@ constexpr std::int64_t kSettleNanos = 250'000'000;
 constexpr std::int64_t kToldNanos = 2 * kNanosPerSecond;  // nodes that swapped do so for as long
 constexpr char kStatic[] = "_static";
 constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
-constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
 
 std::string ToTopic(const std::string& url) {
   const std::string name = url.substr(kScheme.size());

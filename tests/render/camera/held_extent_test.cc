@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kAspect = 16.0 / 9;
-constexpr double kPictures = 30;  // per second
+constexpr double kPicturesPerSecond = 30;  // per second
 
 SceneState PeopleAt(const std::vector<Vector3d>& places) {
   static const SceneState standing = testing::SceneWith(testing::Posture::kStanding);
@@ -41,7 +41,7 @@ class Take {
 
   // Pictures until `secs`, in each of which all must be seen.
   void PlayUntil(double secs) {
-    for (; secs_ <= secs; secs_ += 1 / kPictures) {
+    for (; secs_ <= secs; secs_ += 1 / kPicturesPerSecond) {
       const std::vector<Vector3d> places = places_(secs_);
       const GroundExtent before = aimed_;
       const SceneState people = PeopleAt(places);
@@ -111,7 +111,7 @@ TEST(HeldGroundExtent, StandsStillBeforeAGroupThatWalksInCircles) {
 TEST(HeldGroundExtent, FollowsAPersonWhoWalksOn) {
   Take take([](double secs) { return std::vector<Vector3d>{{0, 1.3 * secs, 0}}; });
   take.PlayUntil(60);
-  EXPECT_GT(take.pictures_that_moved(), 55 * kPictures);
+  EXPECT_GT(take.pictures_that_moved(), 55 * kPicturesPerSecond);
   EXPECT_NEAR(take.aimed().middle.y(), 1.3 * 60, 1.2);
 }
 

@@ -12,12 +12,14 @@
 #include "render/image/heat_map.h"
 #include "render/image/png_file.h"
 #include "tests/render/image/picture_mutations.h"
+#include "tests/source_tree.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::render {
 namespace {
 
 using kinescope::testing::Furnished;
+using kinescope::testing::InSourceTree;
 using kinescope::testing::MutationsOf;
 using kinescope::testing::PictureMutation;
 using kinescope::testing::Scaled;
@@ -61,7 +63,7 @@ std::string TextOf(const PictureDifference& difference, const std::string& name)
 }
 
 Image Golden(const std::string& name) {
-  return ReadPng(KINESCOPE_SOURCE_DIR "/golden_images/" + name + ".png");
+  return ReadPng(InSourceTree("golden_images/" + name + ".png").string());
 }
 
 class PictureDifferenceOf : public ::testing::TestWithParam<const char*> {};

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/system/errors.h"
+#include "tests/source_tree.h"
 #include "tests/temp_folder.h"
 #include "urdf/segments.h"
 
@@ -42,7 +43,7 @@ TEST(RuleFile, TheDefaultRulesAreValid) {
 }
 
 TEST(RuleFile, TheDocumentsShowTheDefaultRules) {
-  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/alarms.md");
+  std::ifstream file(testing::InSourceTree("docs/alarms.md"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(text, HasSubstr(kDefaultRules));
 }

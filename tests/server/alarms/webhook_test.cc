@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/system/web_address.h"
+#include "tests/patience.h"
 #include "tests/web_listener.h"
 
 namespace kinescope::alarms {
@@ -63,9 +64,9 @@ class WebServer {
   const std::string url_ = listener_.url() + "/secret?key=1";
 };
 
-// Until it is true, or ten seconds have passed.
+// Until it is true, or kPatience has passed.
 bool WaitUntil(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + testing::kPatience;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

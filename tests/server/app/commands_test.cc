@@ -11,13 +11,16 @@
 #include <set>
 
 #include "core/system/errors.h"
+#include "server/app/command_table.h"
 #include "server/options/yaml_options.h"
 #include "server/picture/backend_probe.h"
+#include "tests/server/app/all_commands.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
 
+using testing::AllCommands;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -85,6 +88,21 @@ TEST(Options, HaveUniqueNamesAndACompleteHelpText) {
       EXPECT_THAT(option.help, Not(StartsWith(habit))) << option.name;
     }
   });
+}
+
+TEST(Commands, AreInTheProgramThatTheTableNames) {
+  std::set<std::string> met;
+  const auto meet = [&](const std::vector<Command>& commands, const char* program) {
+    for (const Command& command : commands) {
+      const CommandEntry* const entry = FindCommand(command.name);
+      ASSERT_NE(entry, nullptr) << command.name;
+      EXPECT_STREQ(entry->program, program) << command.name;
+      EXPECT_TRUE(met.insert(command.name).second) << command.name << " is there twice";
+    }
+  };
+  meet(MainCommands(), kMainProgram);
+  meet(ToolCommands(), kToolsProgram);
+  EXPECT_EQ(met.size(), CommandNames().size());
 }
 
 // Commands that show nobody must not fill the user's disk.

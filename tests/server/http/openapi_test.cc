@@ -13,6 +13,7 @@
 
 #include "server/http/open_api.h"
 #include "server/http/router.h"
+#include "tests/source_tree.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -58,7 +59,7 @@ void ForEachRef(const json& part, const std::function<void(const std::string&)>&
 }
 
 TEST(OpenApi, IsTheFileOfTheDocuments) {
-  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/openapi.json");
+  std::ifstream file(kinescope::testing::InSourceTree("docs/openapi.json"));
   EXPECT_EQ(kOpenApi, std::string(std::istreambuf_iterator<char>(file), {}));
   EXPECT_EQ(Description().at("openapi"), "3.1.0");
 }

@@ -60,6 +60,7 @@ using urdf::At;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / 60};
+constexpr std::chrono::seconds kMostLate{1};
 constexpr std::size_t kSkyStep = 29;  // of vertices
 
 class PlainFeed final : public PictureFeed {
@@ -488,7 +489,8 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
       options.worn ? kinescope::testing::WornModel(*model, options.mesh_folder) : nullptr;
   SceneState state;
   const auto began = Clock::now();
-  for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kPeriod)) {
+  // On a busy machine samples are late, as from a suit, and none is missing: tests count them.
+  for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kMostLate)) {
     orders.WaitUntil(due);
     if (watched) watched->OnTime(MonotonicNanos(), std::nullopt);
     if (orders.mode != "live" && !orders.changed) continue;

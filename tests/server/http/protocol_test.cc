@@ -374,7 +374,7 @@ TEST(ClientCommand, IsListedWithAValidExample) {
 }
 
 TEST(ProtocolManual, StatesTheSizesAndTheVersion) {
-  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/http.md");
+  std::ifstream file(kinescope::testing::InSourceTree("docs/http.md"));
   const std::string manual(std::istreambuf_iterator<char>(file), {});
   const auto expect = [&](const std::string& text) {
     EXPECT_NE(manual.find(text), std::string::npos) << "docs/http.md does not say: " << text;

@@ -12,6 +12,7 @@
 #include "server/http/router.h"
 #include "server/http/series_json.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/source_tree.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -117,7 +118,7 @@ TEST_F(SeriesRouteTest, SaysWhichPeopleThereAre) {
 }
 
 TEST_F(SeriesRouteTest, TheManualHasEveryKeyAndLimit) {
-  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/http.md");
+  std::ifstream file(kinescope::testing::InSourceTree("docs/http.md"));
   const std::string manual{std::istreambuf_iterator<char>(file), {}};
   for (const history::SeriesKey& key : history::SeriesKeys()) {
     EXPECT_THAT(manual, HasSubstr('`' + std::string(key.name) + '`'));

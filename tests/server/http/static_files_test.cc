@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/source_tree.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::http {
 namespace {
 
 namespace fs = std::filesystem;
+using kinescope::testing::InSourceTree;
 using ::testing::ElementsAre;
 
 class StaticFilesTest : public ::testing::Test {
@@ -72,17 +74,17 @@ TEST_F(StaticFilesTest, ChangesTheEntityTagWhenTheFileChanges) {
 }
 
 TEST(StaticFilesOfThePage, AreComplete) {
-  const StaticFiles files(fs::path(KINESCOPE_SOURCE_DIR) / "web");
+  const StaticFiles files(InSourceTree("web"));
   for (const char* url : {"/", "/index.html", "/app.js", "/style.css", "/favicon.svg"}) {
     EXPECT_NE(files.Find(url), nullptr) << url;
   }
 }
 
 TEST(StaticFilesOfThePage, IncludeItsLibraries) {
-  if (!fs::exists(fs::path(KINESCOPE_SOURCE_DIR) / "web/node_modules")) {
+  if (!fs::exists(InSourceTree("web/node_modules"))) {
     GTEST_SKIP() << "web/node_modules is absent: npm ci --prefix web";
   }
-  const StaticFiles files(fs::path(KINESCOPE_SOURCE_DIR) / "web");
+  const StaticFiles files(InSourceTree("web"));
   for (const Library& library : Libraries()) {
     EXPECT_NE(files.Find(library.url), nullptr) << library.path << " is not in the npm package";
   }

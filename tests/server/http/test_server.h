@@ -18,6 +18,7 @@
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/source_tree.h"
 
 namespace kinescope::http::testing {
 
@@ -104,7 +105,7 @@ struct TestServer {
     HttpConfig config;
     config.port = 0;
     config.token = token;
-    config.web_root = std::string(KINESCOPE_SOURCE_DIR) + "/web";
+    config.web_root = kinescope::testing::InSourceTree("web");
     config.cameras = MakeCameras();
     config.framing = MakeFraming();
     config.camera = "front";

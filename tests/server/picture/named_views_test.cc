@@ -9,20 +9,20 @@
 
 #include "render/camera/camera.h"
 #include "tests/render/test_scene.h"
+#include "tests/source_tree.h"
 
 namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
-
-const std::string kSource = KINESCOPE_SOURCE_DIR;
+using testing::InSourceTree;
 
 Vector3d ToVector(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
 TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
-  std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
+  std::ifstream file(InSourceTree("tests/browser/unit/named_views.json"));
   ASSERT_TRUE(file);
   const nlohmann::json page = nlohmann::json::parse(file);
   const nlohmann::json& framing = page.at("framing");
@@ -47,7 +47,7 @@ TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
 }
 
 TEST(NamedViews, OfScenesWithoutPeopleMatchThePageToo) {
-  std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
+  std::ifstream file(InSourceTree("tests/browser/unit/named_views.json"));
   const nlohmann::json page = nlohmann::json::parse(file);
   ASSERT_GT(page.at("extents").size(), 1u);
   for (const auto& view : page.at("extents")) {
@@ -63,8 +63,8 @@ TEST(NamedViews, OfScenesWithoutPeopleMatchThePageToo) {
 // RViz's orbit: perspective with a field of view of 45 degrees, about a point that goes with the
 // target frame but does not turn with it.
 TEST(NamedViews, AreContainedInTheRvizConfiguration) {
-  const YAML::Node saved =
-      YAML::LoadFile(kSource + "/launch/kinescope.rviz")["Visualization Manager"]["Views"]["Saved"];
+  const YAML::Node saved = YAML::LoadFile(
+      InSourceTree("launch/kinescope.rviz").string())["Visualization Manager"]["Views"]["Saved"];
   const SceneState standing = kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding);
   const Vector3d pelvis = standing.people[0].links[urdf::kPelvis].position;
   std::map<std::string, YAML::Node> by_name;

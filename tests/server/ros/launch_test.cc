@@ -16,6 +16,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -150,6 +151,12 @@ std::string NotOk(const Statuses& statuses) {
   return text;
 }
 
+// RViz has given up a marker, and then found that it has the transform: its own thread of TF was
+// late, as on a busy machine. Of a transform that we do not send it tells another reason.
+bool IsOfALateRviz(const std::string& not_ok) {
+  return not_ok.find("Unknown reason for transform failure") != std::string::npos;
+}
+
 TEST(LaunchFile, IsShownByRvizWithoutAWarningOrAnError) {
   if (g_what_else != "rviz") GTEST_SKIP() << "not this launch file";
   const auto deadline = ros::WallTime::now() + ros::WallDuration(60);
@@ -169,14 +176,20 @@ TEST(LaunchFile, IsShownByRvizWithoutAWarningOrAnError) {
   ASSERT_TRUE(has_all()) << "RViz shows " << shown << "\n" << NotOk(seen);
   EXPECT_GE(seen.at("Body of skeleton").size(), 24U) << "a line for each link that has a shape";
 
-  int first = 0, now = 0;
-  ros::param::get("/rviz_reports", first);
-  while (now < first + 12 && ros::WallTime::now() < deadline) {
-    ros::param::get("/rviz_reports", now);
-    EXPECT_EQ(NotOk(ReportedByRviz()), "") << "it stays so";
-    ros::WallDuration(0.1).sleep();
+  constexpr int kEnough = 12;  // reports in which all is well; one in which it is not ends the test
+  int good = 0, former = 0, report = 0;
+  const auto end = ros::WallTime::now() + ros::WallDuration(60);
+  std::string not_ok;
+  while (good < kEnough && ros::WallTime::now() < end) {
+    ros::param::get("/rviz_reports", report);
+    if (std::exchange(former, report) != report) {
+      not_ok = NotOk(ReportedByRviz());
+      ASSERT_TRUE(not_ok.empty() || IsOfALateRviz(not_ok)) << "it does not stay so:\n" << not_ok;
+      good += not_ok.empty() ? 1 : 0;
+    }
+    ros::WallDuration(0.05).sleep();  // another process's progress: there is nothing to wait on
   }
-  EXPECT_GE(now, first + 12) << "RViz stopped";
+  EXPECT_EQ(good, kEnough) << "of " << former << " reports of RViz, the last:\n" << not_ok;
 }
 
 }  // namespace

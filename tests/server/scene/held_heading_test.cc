@@ -14,7 +14,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kPeriod = 1.0 / 60;  // s
+constexpr double kPicturePeriod = 1.0 / 60;  // s
 constexpr double kDegree = M_PI / 180;
 
 Quaterniond Turn(double degrees, const Vector3d& axis) {
@@ -44,10 +44,10 @@ class Shown {
   // After `more` seconds.
   double Play(double more, const std::function<Quaterniond(double secs)>& pelvis) {
     double shown = At(secs_, pelvis(secs_));
-    for (const double end = secs_ + more; secs_ < end; secs_ += kPeriod) {
+    for (const double end = secs_ + more; secs_ < end; secs_ += kPicturePeriod) {
       const double before = shown;
       shown = At(secs_, pelvis(secs_));
-      fastest_ = std::max(fastest_, std::abs(std::remainder(shown - before, 360)) / kPeriod);
+      fastest_ = std::max(fastest_, std::abs(std::remainder(shown - before, 360)) / kPicturePeriod);
     }
     return shown;
   }
@@ -98,7 +98,7 @@ TEST(HeldHeading, KeepsTheLastOneWhereItIsUndefined) {
   EXPECT_NEAR(shown.Go(Facing(70), 9), 70, 3);
   Shown turning(CameraFrame::kPerson);
   turning.Play(1, Facing(70));
-  turning.At(1 + kPeriod, Facing(70) * UpsideDown());
+  turning.At(1 + kPicturePeriod, Facing(70) * UpsideDown());
   EXPECT_NEAR(turning.At(2, Facing(70) * UpsideDown()), 70, 1e-6);
 }
 
@@ -106,8 +106,8 @@ TEST(HeldHeading, IsTakenAgainAtOnceWhereTheMotionIsNotContinued) {
   Shown reset(CameraFrame::kStart);
   reset.Play(1, Facing(0));
   EXPECT_NEAR(reset.At(1, Facing(60)), 60, 1e-9) << "the character was reset";
-  EXPECT_NEAR(reset.At(1 + kPeriod, Facing(60), {3, 0, 1}), 60, 1e-9);
-  EXPECT_NEAR(reset.At(1 + 2 * kPeriod, Facing(90), {6, 0, 1}), 90, 1e-9) << "put elsewhere";
+  EXPECT_NEAR(reset.At(1 + kPicturePeriod, Facing(60), {3, 0, 1}), 60, 1e-9);
+  EXPECT_NEAR(reset.At(1 + 2 * kPicturePeriod, Facing(90), {6, 0, 1}), 90, 1e-9) << "put elsewhere";
   EXPECT_NEAR(reset.At(0.5, Facing(100), {6, 0, 1}), 100, 1e-9) << "time goes back";
   reset.person().sample.counter = 0;
   EXPECT_NEAR(reset.At(0.6, Facing(75), {6, 0, 1}), 75, 1e-9) << "the sender was restarted";

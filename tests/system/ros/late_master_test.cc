@@ -96,10 +96,10 @@ TEST_F(LateMaster, IsNamedByInspectAndUrdf) {
       "no ROS master answers at http://127.0.0.1:{}: start roscore, or set ROS_MASTER_URI",
       master.port());
   Process inspect = StartProgram(master, "inspect ros: --seconds 0.1");
+  Process urdf = StartProgram(master, "urdf ros:");
   const std::string report = LogUntil(inspect, "No person");
   EXPECT_NE(report.find("> " + missing), std::string::npos) << report;
   EXPECT_EQ(inspect.WaitForEnd(), 1);
-  Process urdf = StartProgram(master, "urdf ros:");
   const std::string error = LogUntil(urdf, "source 'ros:'");
   EXPECT_NE(error.find("source 'ros:': " + missing), std::string::npos) << error;
   EXPECT_EQ(urdf.WaitForEnd(), 2);

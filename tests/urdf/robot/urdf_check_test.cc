@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 
 #include "tests/shared_data.h"
 #include "urdf/human_urdf.h"
@@ -221,10 +221,10 @@ TEST(UrdfCheck, ChecksAMillionElementsInSeconds) {
   for (int i = 0; i < 150'000; ++i) {
     xml += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='p'/></joint>";
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t before = std::clock();
   const UrdfReport report = Check(xml + "</robot>");
   EXPECT_FALSE(report.is_usable());
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_LT((std::clock() - before) / CLOCKS_PER_SEC, 20) << "CPU s; a busy machine takes longer";
 }
 
 TEST(UrdfCheck, AcceptsThePublishedHumanModelsOfOtherProjects) {

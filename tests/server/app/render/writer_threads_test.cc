@@ -9,6 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tests/patience.h"
+
 namespace kinescope::app {
 namespace {
 
@@ -58,7 +60,7 @@ TEST(WriterThreads, ReportAFailureAndDiscardTheRest) {
 // Each item that is written puts the next one, so the queue never ends by itself: only a destructor
 // that throws away what is left comes to an end.
 TEST(WriterThreads, DiscardUnfinishedWorkAtTheirEnd) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto deadline = std::chrono::steady_clock::now() + kinescope::testing::kPatience;
   std::atomic<bool> has_waited{false};
   std::promise<void> started;
   {

@@ -9,11 +9,13 @@
 #include <map>
 #include <string>
 
+#include "tests/source_tree.h"
+
 namespace kinescope::app {
 namespace {
 
 std::string Usual() {
-  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/launch/kinescope.rviz");
+  std::ifstream file(kinescope::testing::InSourceTree("launch/kinescope.rviz"));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -9,6 +9,7 @@
 #include "server/app/serve/live_pictures.h"
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"
+#include "tests/source_tree.h"
 #include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::app {
@@ -49,7 +50,7 @@ class PictureProblems : public ::testing::Test {
   static http::HttpConfig Config() {
     http::HttpConfig config;
     config.port = 0;
-    config.web_root = std::string(KINESCOPE_SOURCE_DIR) + "/web";
+    config.web_root = kinescope::testing::InSourceTree("web");
     config.cameras = {{"front"}};
     config.camera = "front";
     return config;

@@ -230,10 +230,11 @@ TEST(TcpDatagrams, KeepTheirReceiveTimeWhenTheReaderIsLate) {
   ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections == 1; }));
   client.Send(Pose(1));
   const Arrival sent = ReadClocks();
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the reader is busy elsewhere
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the reader is busy elsewhere
   ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 1; }));
-  constexpr std::int64_t kSlack = 20'000'000;  // the two clocks are read one after the other
-  EXPECT_LE(sink.all[0].arrival.monotonic_nanos, sent.monotonic_nanos + kSlack);
+  // On a busy machine time passes between the readings of the two clocks.
+  constexpr std::int64_t kHalfOfThat = 150'000'000;
+  EXPECT_LT(sink.all[0].arrival.monotonic_nanos, sent.monotonic_nanos + kHalfOfThat);
 }
 
 TEST(TcpDatagrams, OfStrangersAreNotReadIfOnlySomeMachinesMaySend) {

@@ -32,7 +32,7 @@ using ::testing::HasSubstr;
 
 constexpr std::int64_t kFirstNanos = 1'700'000'000'000'000'000;
 constexpr std::int64_t kPeriodNanos = 10'000'000;
-constexpr int kSamples = 8;
+constexpr int kSamplesOfTheBag = 8;
 // Bytes, however large the bag says that it is.
 constexpr std::size_t kMostMemory = 32 << 20;
 constexpr std::size_t kLargestAllocation = 17 << 20;
@@ -119,7 +119,7 @@ class DamagedBagTest : public ::testing::TestWithParam<rosbag::CompressionType> 
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     bag.setCompression(GetParam());
     bag.setChunkThreshold(chunk_bytes);
-    for (int n = 0; n < kSamples; ++n) {
+    for (int n = 0; n < kSamplesOfTheBag; ++n) {
       const std::int64_t now = kFirstNanos + n * kPeriodNanos;
       tf2_msgs::TFMessage message;
       FillTransforms(kinescope::testing::MakePerson(model, kinescope::testing::Posture(0.05 * n),
@@ -174,10 +174,10 @@ TEST_P(DamagedBagTest, IsReadUpToTheDamageOrRejectedInOneLine) {
     samples += sink.samples;
     EXPECT_LT(sink.most, before + kMostMemory);
     EXPECT_LT(kinescope::testing::LargestAllocation(), kLargestAllocation);
-    EXPECT_LE(sink.samples, kSamples);
+    EXPECT_LE(sink.samples, kSamplesOfTheBag);
   }
   EXPECT_GT(read, 50) << "most damages cost some messages, not the bag";
-  EXPECT_GT(samples, 50 * kSamples);
+  EXPECT_GT(samples, 50 * kSamplesOfTheBag);
 }
 
 // Of the first chunk, with the records of all connections. The index has them again.
@@ -193,7 +193,7 @@ TEST_P(DamagedBagTest, WithoutItsFirstChunkHasThePeopleOfTheOthers) {
   const auto source = OpenBag(path);
   while (source->Poll({}, sink) != Source::State::kEnded) {
   }
-  EXPECT_GE(sink.samples, kSamples / 2);
+  EXPECT_GE(sink.samples, kSamplesOfTheBag / 2);
   EXPECT_THAT(log.text(), HasSubstr("left out"));
 }
 
@@ -230,7 +230,7 @@ TEST_P(CheckedBagTest, HasNoOtherMotionAfterAChangedByte) {
   for (const std::string& whole : {WholeBag(), WholeBag(kOneChunk, kLongText)}) {
     const bool is_one_chunk = whole.find("compression=") == whole.rfind("compression=");
     const std::set<std::string> right = read(whole);
-    ASSERT_EQ(right.size(), static_cast<std::size_t>(kSamples));
+    ASSERT_EQ(right.size(), static_cast<std::size_t>(kSamplesOfTheBag));
     const std::size_t trials = is_one_chunk ? 10 : 60;
     std::size_t left_out = 0;
     for (std::size_t n = 0; n < trials; ++n) {

@@ -1,2 +1,0 @@
-// Nothing: a program from which the tests have their precompiled header.
-int main() {}
