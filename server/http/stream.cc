@@ -72,10 +72,9 @@ void Stream::AsyncWriteSome(const Outgoing& parts, IoHandler handler) {
   tcp_->async_write_some(parts, std::move(handler));
 }
 
-void Stream::AsyncEnd(IoHandler handler) {
+void Stream::AsyncEnd(beast::role_type role, IoHandler handler) {
   if (tls_) return AsyncShutdownTls(std::move(handler));
-  beast::websocket::async_teardown(beast::role_type::server, tcp_->socket(),
-                                   WithoutBytes(std::move(handler)));
+  beast::websocket::async_teardown(role, tcp_->socket(), WithoutBytes(std::move(handler)));
 }
 
 Stream::executor_type Stream::get_executor() noexcept { return tcp_->get_executor(); }

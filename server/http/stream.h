@@ -116,16 +116,17 @@ class Stream {
   }
   friend void beast_close_socket(Stream& stream) { stream.Close(); }
   template <class Handler>
-  friend void async_teardown(boost::beast::role_type, Stream& stream, Handler&& handler) {
-    stream.AsyncEnd([handler = std::forward<Handler>(handler)](
-                        boost::beast::error_code error, std::size_t) mutable { handler(error); });
+  friend void async_teardown(boost::beast::role_type role, Stream& stream, Handler&& handler) {
+    stream.AsyncEnd(
+        role, [handler = std::forward<Handler>(handler)](boost::beast::error_code error,
+                                                         std::size_t) mutable { handler(error); });
   }
 
  private:
   class Tcp;
   struct Tls;
 
-  void AsyncEnd(IoHandler handler);  // of a WebSocket
+  void AsyncEnd(boost::beast::role_type role, IoHandler handler);  // of a WebSocket
 
   // On the heap, because TLS refers to TCP and a stream can be moved.
   std::unique_ptr<Tcp> tcp_;

@@ -147,6 +147,10 @@ void OpenConnection::Send(const std::string& bytes) {
 
 void OpenConnection::FinishSending() { impl_->socket.shutdown(tcp::socket::shutdown_send); }
 
+std::string OpenConnection::Read(std::size_t enough) {
+  return Receive(impl_->io, impl_->socket, enough, "a part of an answer");
+}
+
 std::string OpenConnection::ReadToEnd() {
   return Receive(impl_->io, impl_->socket, kAll, "the end of an answer");
 }

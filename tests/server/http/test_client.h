@@ -41,6 +41,8 @@ class OpenConnection {
 
   void Send(const std::string& bytes);
   void FinishSending();
+  /// What comes until it is `enough` bytes or the server closes the connection.
+  std::string Read(std::size_t enough);
   /// What comes until the server closes the connection.
   std::string ReadToEnd();
 
