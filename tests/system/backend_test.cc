@@ -19,6 +19,7 @@
 #include "render/image/png_file.h"
 #include "server/picture/backend_probe.h"
 #include "server/picture/child_process.h"
+#include "tests/folders.h"
 #include "tests/patience.h"
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
@@ -53,7 +54,9 @@ class Backend : public ::testing::Test {
  protected:
   // A program started so has a driver that hangs while hang_ exists.
   std::vector<std::string> HangingDriver() const {
-    return {"LD_PRELOAD=" KINESCOPE_HANGING_DRIVER, "HANGING_DRIVER_FILE=" + hang_.string()};
+    return {
+        "LD_PRELOAD=" + kinescope::testing::InBuild("tests/system/libhanging_driver.so").string(),
+        "HANGING_DRIVER_FILE=" + hang_.string()};
   }
   void Hang() const { std::ofstream(hang_).flush(); }
 

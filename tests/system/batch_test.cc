@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
@@ -98,7 +99,9 @@ TEST_F(Batch, DoesJobsOfEveryCommand) {
   const json golden = {
       {"id", "g"},
       {"command", "golden"},
-      {"options", {{"folder", KINESCOPE_DOCS "/golden_example/golden"}, {"out", In("golden")}}}};
+      {"options",
+       {{"folder", kinescope::testing::InSourceTree("docs/golden_example/golden").string()},
+        {"out", In("golden")}}}};
   WriteList({Picture("p"), Loads("l"), convert, golden});
   const ProgramResult result = Run();
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

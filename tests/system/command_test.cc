@@ -17,6 +17,7 @@
 #include "render/image/compare.h"
 #include "render/image/png_file.h"
 #include "server/picture/view_options.h"
+#include "tests/folders.h"
 #include "tests/process.h"
 #include "tests/server/app/all_commands.h"
 #include "tests/shared_data.h"
@@ -236,7 +237,7 @@ TEST(Command, NeverReplacesItsSource) {
 
 // "| `urdf check` | one object per | members |" of docs/json.md: the members.
 std::string DocumentedMembers(const std::string& command) {
-  std::ifstream document(std::string(KINESCOPE_DOCS) + "/json.md");
+  std::ifstream document(kinescope::testing::InSourceTree("docs/json.md"));
   for (std::string line; std::getline(document, line);) {
     const std::string begin = "| `" + command + "` |";
     if (line.compare(0, begin.size(), begin) == 0) return line.substr(line.find('|', begin.size()));
@@ -246,7 +247,7 @@ std::string DocumentedMembers(const std::string& command) {
 
 // The last cells of "| `right_knee`, `left_knee` | -20 to 170 | shank outwards, -25 to 25 | ... |".
 TEST(Command, DocumentsTheRangesOfWrittenPoses) {
-  std::ifstream document(std::string(KINESCOPE_DOCS) + "/pose.md");
+  std::ifstream document(kinescope::testing::InSourceTree("docs/pose.md"));
   const std::regex name("`([a-z0-9_]+)`"), range("(-?[0-9]+) to (-?[0-9]+)");
   std::set<int> documented;
   for (std::string line; std::getline(document, line);) {

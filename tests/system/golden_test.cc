@@ -14,6 +14,7 @@
 
 #include "render/image/png_file.h"
 #include "server/app/golden/golden_lock.h"
+#include "tests/folders.h"
 #include "tests/shared_data.h"
 #include "tests/system/golden_fixture.h"
 #include "tests/system/kinescope_program.h"
@@ -394,8 +395,9 @@ TEST_F(GoldenCheck, DrawsTheSameBytesUnderAllCircumstances) {
 }
 
 TEST_F(GoldenCheck, SaysUnderWhichCircumstanceWhatChanges) {
-  const ProgramResult result =
-      Kinescope({"golden", "stress", case_}, {"LD_PRELOAD=" KINESCOPE_OTHER_DIGITS});
+  const ProgramResult result = Kinescope(
+      {"golden", "stress", case_},
+      {"LD_PRELOAD=" + kinescope::testing::InBuild("tests/system/libother_digits.so").string()});
   EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("time zone Asia/Kathmandu     DIFFERS\n  bend: "),

@@ -1,9 +1,10 @@
-/// Which kinescope is under test. For targets with the definition KINESCOPE_PROGRAM, the path of
-/// that of this build.
+/// Which kinescope is under test.
 #pragma once
 
 #include <cstdlib>
 #include <string>
+
+#include "tests/folders.h"
 
 namespace kinescope::testing {
 
@@ -11,7 +12,7 @@ namespace kinescope::testing {
 /// sanitized one.
 inline std::string KinescopePath() {
   const char* const other = std::getenv("KINESCOPE_PROGRAM");
-  return other == nullptr ? KINESCOPE_PROGRAM : other;
+  return other == nullptr ? InBuild("bin/kinescope").string() : other;
 }
 
 }  // namespace kinescope::testing

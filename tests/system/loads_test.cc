@@ -14,6 +14,7 @@
 #include "render/image/png_file.h"
 #include "server/loads/joint_score.h"
 #include "tests/csv_table.h"
+#include "tests/folders.h"
 #include "tests/process.h"
 #include "tests/server/app/loads/trial_scenes.h"
 #include "tests/shared_data.h"
@@ -231,7 +232,8 @@ TEST(LoadsCommand, WritesAPdfAlthoughTheConverterEndsBeforeItsThreads) {
   const std::string path = folder / "report.pdf";
   const ProgramResult result = testing::RunProgram(
       {testing::KinescopePath(), "loads", "demo:lift", "--seconds", "1", "--report", path},
-      {"LD_PRELOAD=" KINESCOPE_LATE_FONT_THREADS});
+      {"LD_PRELOAD=" +
+       kinescope::testing::InBuild("tests/system/liblate_font_threads.so").string()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(ReadFile(path), ::testing::StartsWith("%PDF"));
 }

@@ -19,6 +19,7 @@
 #include "server/mvn/open.h"
 #include "server/subject/motions.h"
 #include "server/subject/subject.h"
+#include "tests/folders.h"
 #include "tests/patience.h"
 #include "tests/process.h"
 #include "tests/server/mvn/file/datagram_sink.h"
@@ -361,7 +362,8 @@ TEST(RecordCommand, LosesNothingOfASuitBesideAFloodOfHostileDatagrams) {
   const fs::path path = folder.path() / "take.pcap";
   Recording recording("udp://127.0.0.1:0", "--out " + Quoted(path.string()) + " --seconds 60");
   const std::string port = recording.url().substr(recording.url().rfind(':') + 1);
-  const Process hostile({KINESCOPE_HOSTILE_SENDERS, port, "all", "5000", "60"});
+  const Process hostile({kinescope::testing::InBuild("tests/soak/hostile_senders").string(), port,
+                         "all", "5000", "60"});
   const ProgramResult suit =
       testing::Kinescope({"stream", "demo:walk", "--rate_hz", "240", "--seconds", "2", "--json",
                           "--to", recording.url()});

@@ -11,8 +11,8 @@
 #include "render/image/color_distance.h"
 #include "render/image/heat_map.h"
 #include "render/image/png_file.h"
+#include "tests/folders.h"
 #include "tests/render/image/picture_mutations.h"
-#include "tests/source_tree.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::render {

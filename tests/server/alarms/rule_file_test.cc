@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/system/errors.h"
-#include "tests/source_tree.h"
+#include "tests/folders.h"
 #include "tests/temp_folder.h"
 #include "urdf/segments.h"
 

@@ -13,7 +13,7 @@
 
 #include "server/http/open_api.h"
 #include "server/http/router.h"
-#include "tests/source_tree.h"
+#include "tests/folders.h"
 
 namespace kinescope::http::testing {
 namespace {

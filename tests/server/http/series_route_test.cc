@@ -11,8 +11,8 @@
 #include "server/history/history.h"
 #include "server/http/router.h"
 #include "server/http/series_json.h"
+#include "tests/folders.h"
 #include "tests/server/http/test_scene.h"
-#include "tests/source_tree.h"
 
 namespace kinescope::http::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "server/http/connections.h"
 #include "server/http/guess_guard.h"
+#include "tests/folders.h"
 #include "tests/server/http/test_server.h"
-#include "tests/source_tree.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::http::testing {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/source_tree.h"
+#include "tests/folders.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::http {

@@ -16,9 +16,9 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/http/server.h"
+#include "tests/folders.h"
 #include "tests/server/http/test_client.h"
 #include "tests/server/http/test_scene.h"
-#include "tests/source_tree.h"
 
 namespace kinescope::http::testing {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "render/camera/camera.h"
+#include "tests/folders.h"
 #include "tests/render/test_scene.h"
-#include "tests/source_tree.h"
 
 namespace kinescope::app {
 namespace {

@@ -21,6 +21,7 @@
 #include "server/ros/bridge.h"
 #include "server/ros/init.h"
 #include "server/ros/master_client.h"
+#include "tests/folders.h"
 #include "tests/free_port.h"
 #include "tests/process.h"
 #include "tests/server/ros/test_person.h"
@@ -111,7 +112,8 @@ class RosBridgeWithMaster : public ::testing::Test {
   // A node that subscribes to everything and has heard something on every topic.
   std::unique_ptr<testing::Process> Listen() {
     auto listener = std::make_unique<testing::Process>(std::vector<std::string>{
-        KINESCOPE_ROS_LISTENER, "/kinescope/", std::to_string(kEpochNanos)});
+        kinescope::testing::InBuild("tests/server/ros/ros_listener").string(), "/kinescope/",
+        std::to_string(kEpochNanos)});
     EXPECT_TRUE(PublishUntil([&] { return listener->ReadLine(0ms) == "heard"; }))
         << "the listener does not hear every topic";
     return listener;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.h"
 #include "tests/process.h"
 #include "tests/system/process_memory.h"
 #include "tests/system/ros/ros_fixture.h"
@@ -44,7 +45,8 @@ TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
   ASSERT_TRUE(Spin([this] { return stamps_.size() > 10; }));
   stamps_.clear();
   const std::string port = address.substr(address.rfind(':') + 1);
-  const Process hostile({KINESCOPE_HOSTILE_SENDERS, port, "all", "5000", "60"});
+  const Process hostile({kinescope::testing::InBuild("tests/soak/hostile_senders").string(), port,
+                         "all", "5000", "60"});
   // Those far away are named as long as none of their samples from a possible place is newer.
   nlohmann::json source;
   bool were_named = false;

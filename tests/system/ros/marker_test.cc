@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/scene_marker.h"
+#include "tests/folders.h"
 #include "tests/system/ros/ros_fixture.h"
 
 namespace kinescope {
@@ -21,8 +22,9 @@ class MarkersOverRos : public testing::RosProgram {
   void SetUp() override {
     RosProgram::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    bridge_ = std::make_unique<testing::Process>(
-        std::vector<std::string>{KINESCOPE_MARKER_LISTENER, "/single,/many,/other"});
+    bridge_ = std::make_unique<testing::Process>(std::vector<std::string>{
+        kinescope::testing::InBuild("tests/system/marker_listener").string(),
+        "/single,/many,/other"});
     single_ = Advertise<Marker>("/single");
     many_ = Advertise<visualization_msgs::MarkerArray>("/many");
     frames_ = Advertise<tf2_msgs::TFMessage>("/tf");
@@ -38,8 +40,8 @@ class MarkersOverRos : public testing::RosProgram {
   void ListenAnewTo(const std::string& topics) {
     bridge_.reset();
     ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() == 0; }));
-    bridge_ = std::make_unique<testing::Process>(
-        std::vector<std::string>{KINESCOPE_MARKER_LISTENER, topics});
+    bridge_ = std::make_unique<testing::Process>(std::vector<std::string>{
+        kinescope::testing::InBuild("tests/system/marker_listener").string(), topics});
     ASSERT_TRUE(Spin([&] { return frames_.getNumSubscribers() > 0; }));
   }
 

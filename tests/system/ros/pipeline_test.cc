@@ -27,6 +27,7 @@
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 #include "server/subject/subject.h"
+#include "tests/folders.h"
 #include "tests/process.h"
 #include "tests/system/ros/ros_fixture.h"
 #include "tests/system/run_program.h"
@@ -208,17 +209,21 @@ TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   }
 
   const auto page =
-      RunProgram({KINESCOPE_NODE, "--test", KINESCOPE_SOURCE_DIR "/tests/browser/live_page.mjs"},
-                 {"KINESCOPE_PAGE=" + page_, "KINESCOPE_SCREENSHOTS=" KINESCOPE_SCREENSHOTS});
+      RunProgram({KINESCOPE_NODE, "--test",
+                  kinescope::testing::InSourceTree("tests/browser/live_page.mjs").string()},
+                 {"KINESCOPE_PAGE=" + page_,
+                  "KINESCOPE_SCREENSHOTS=" + kinescope::testing::InBuild("screenshots").string()});
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
 }
 
 TEST_F(Pipeline, AcceptsAHandLoadFromThePageAndShowsTheLoadedShoulder) {
   const auto suit = Start("stream demo:t_pose --to " + suit_address_);
   WaitForLine(*server_, "live: ");
-  const auto page = RunProgram(
-      {KINESCOPE_NODE, "--test", KINESCOPE_SOURCE_DIR "/tests/browser/hand_load_page.mjs"},
-      {"KINESCOPE_PAGE=" + page_, "KINESCOPE_SCREENSHOTS=" KINESCOPE_SCREENSHOTS});
+  const auto page =
+      RunProgram({KINESCOPE_NODE, "--test",
+                  kinescope::testing::InSourceTree("tests/browser/hand_load_page.mjs").string()},
+                 {"KINESCOPE_PAGE=" + page_,
+                  "KINESCOPE_SCREENSHOTS=" + kinescope::testing::InBuild("screenshots").string()});
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
 }
 

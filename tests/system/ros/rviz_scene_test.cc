@@ -30,6 +30,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/ros/rviz_fixture.h"
@@ -361,7 +362,7 @@ class RVizScene : public testing::RVizProgram {
       for (const std::array<int, 3>& color : *pixels) {
         for (const int channel : color) ppm += static_cast<char>(channel);
       }
-      const std::filesystem::path folder = KINESCOPE_SCREENSHOTS;
+      const std::filesystem::path folder = kinescope::testing::InBuild("screenshots");
       std::filesystem::create_directories(folder);
       std::ofstream(folder / fmt::format("{}_{}.ppm", scene, name), std::ios::binary) << ppm;
     }

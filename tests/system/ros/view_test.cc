@@ -18,6 +18,7 @@
 #include <string>
 
 #include "render/renderer.h"
+#include "tests/folders.h"
 #include "tests/server/http/test_client.h"
 #include "tests/system/ros/ros_fixture.h"
 
@@ -258,14 +259,13 @@ TEST_F(ViewOverRos, IsNotAdvertisedIfItOrPicturesAreOff) {
   EXPECT_FALSE(IsAdvertised("/kinescope/view/image_raw"));
 }
 
-#ifdef KINESCOPE_HANGING_DRIVER
 TEST_F(ViewOverRos, AllowsTheProgramToStopIfItsDriverDoesNotRespond) {
   const std::filesystem::path hang = folder_ / "hang";
   bool has_image = false;
   Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { has_image = true; });
   // The limit is what the first picture may take on a busy machine; the test waits for it once.
   setenv("HANGING_DRIVER_FILE", hang.c_str(), 1);
-  setenv("LD_PRELOAD", KINESCOPE_HANGING_DRIVER, 1);
+  setenv("LD_PRELOAD", kinescope::testing::InBuild("tests/system/libhanging_driver.so").c_str(), 1);
   StartServe("--ros_view_size 64x48 --picture_size 64x48 --draw_limit_secs 3");
   unsetenv("LD_PRELOAD");
   const auto hangs = [&] { return Diagnostics("view").at("driver_hung").get<bool>(); };
@@ -280,7 +280,6 @@ TEST_F(ViewOverRos, AllowsTheProgramToStopIfItsDriverDoesNotRespond) {
                 .find("does not respond"),
             std::string::npos);
 }
-#endif
 
 }  // namespace
 }  // namespace kinescope

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "tests/source_tree.h"
+#include "tests/folders.h"
 
 namespace kinescope::app {
 namespace {

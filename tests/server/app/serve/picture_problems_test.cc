@@ -8,8 +8,8 @@
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/http/server.h"
+#include "tests/folders.h"
 #include "tests/server/http/test_client.h"
-#include "tests/source_tree.h"
 #include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::app {

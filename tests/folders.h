@@ -1,4 +1,5 @@
-/// Finds files of this repository for tests that read them: documents, the page, golden images.
+/// Finds files of this repository and of this build for tests that read or start them: documents,
+/// the page, golden images, programs.
 #pragma once
 
 #include <filesystem>
@@ -8,5 +9,8 @@ namespace kinescope::testing {
 
 /// `name` is relative to the top folder of the repository.
 std::filesystem::path InSourceTree(const std::string& name);
+
+/// `name` is relative to the build folder.
+std::filesystem::path InBuild(const std::string& name);
 
 }  // namespace kinescope::testing

@@ -1,14 +1,19 @@
 // The only source of the tests with a path of this computer in it: the others are compiled to the
 // same objects in each clone, so that ccache has them.
+#include "tests/folders.h"
+
 #include <cstdlib>
 
 #include "tests/shared_data.h"
-#include "tests/source_tree.h"
 
 namespace kinescope::testing {
 
 std::filesystem::path InSourceTree(const std::string& name) {
   return std::filesystem::path(KINESCOPE_SOURCE_DIR) / name;
+}
+
+std::filesystem::path InBuild(const std::string& name) {
+  return std::filesystem::path(KINESCOPE_BUILD_DIR) / name;
 }
 
 std::filesystem::path SharedData(const std::string& file) {
