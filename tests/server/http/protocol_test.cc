@@ -12,6 +12,7 @@
 #include "server/http/look_back.h"
 #include "tests/server/http/past_message.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/source_tree.h"
 #include "tests/worn.h"
 
 namespace kinescope::http {
