@@ -15,6 +15,7 @@
 #include "core/system/check.h"
 #include "core/system/json_parse.h"
 #include "core/system/json_text.h"
+#include "core/unknown.h"
 
 namespace kinescope::http {
 namespace {
@@ -120,14 +121,13 @@ void PutRobot(Writer& out, const RobotState& robot) {
 // A force that is unknown, or too small to be shown, is NaN.
 void PutFoot(Writer& out, const FootForce& foot) {
   const bool is_shown = foot.force.norm() > kMinForceShown && foot.cop.allFinite();
-  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(kUnknown);
   out.PutVector(is_shown ? foot.cop : none);
   out.PutVector(is_shown ? foot.force : none);
 }
 
 void PutPerson(Writer& out, const PersonState& person) {
   KINESCOPE_CHECK(person.model != nullptr);
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const BodyForces& forces = person.forces;
   const HandLoadShape held = ShapeOfHandLoad(person);
   const std::uint8_t loads = CountByte(person.loads.size());

@@ -599,7 +599,7 @@ Answer Router::File(const std::string& path, const Request& request) const {
   if (file == nullptr || tag.empty()) {
     const bool is_library = StartsWith(path, "/lib/");
     return Refuse(404, "unknown address",
-                  is_library ? "this library is not installed; run npm ci --prefix web"
+                  is_library ? "this library is not installed; run sh web/fetch_libraries.sh"
                              : "no page at this address");
   }
   Answer answer;
