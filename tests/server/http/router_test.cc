@@ -232,7 +232,7 @@ TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
   expect_unknown("/app.js/", "no page at this address");
   expect_unknown("/API/state", "no page at this address");
   expect_unknown("/api", "no page at this address");
-  expect_unknown("/lib/three/three.module.js", "npm ci --prefix web");
+  expect_unknown("/lib/three/three.module.js", "sh web/fetch_libraries.sh");
   expect_unknown("/api/v1/mesh/0", "/api/v1/mesh/{person}/{revision}/{number}");
   EXPECT_EQ(refusals_["unknown address"], 6);
   for (const char* target :

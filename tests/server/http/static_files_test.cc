@@ -82,7 +82,7 @@ TEST(StaticFilesOfThePage, AreComplete) {
 
 TEST(StaticFilesOfThePage, IncludeItsLibraries) {
   if (!fs::exists(InSourceTree("web/node_modules"))) {
-    GTEST_SKIP() << "web/node_modules is absent: npm ci --prefix web";
+    GTEST_SKIP() << "web/node_modules is absent: sh web/fetch_libraries.sh";
   }
   const StaticFiles files(InSourceTree("web"));
   for (const Library& library : Libraries()) {
