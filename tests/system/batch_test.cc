@@ -120,11 +120,6 @@ TEST_F(Batch, DoesJobsOfEveryCommand) {
   EXPECT_EQ(results[0].at("outputs").size(), 2u);  // with its record
 }
 
-// Also without being root: a user namespace has mounts of its own.
-bool CanMount() {
-  return testing::RunProgram({"/usr/bin/unshare", "-rm", "/bin/true"}).exit_code == 0;
-}
-
 // A disk of `kilobytes` at `folder`, on which the list is done, and then `after`.
 ProgramResult OnSmallDisk(const fs::path& folder, int kilobytes, const std::string& list,
                           const std::string& after) {
@@ -136,7 +131,7 @@ ProgramResult OnSmallDisk(const fs::path& folder, int kilobytes, const std::stri
 }
 
 TEST_F(Batch, NamesJobsWhoseDiskIsFullAndDoesTheOthers) {
-  if (!CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
+  if (!testing::CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
   fs::create_directory(In("disk"));
   json large = Loads("large"), small = Loads("small"), elsewhere = Loads("elsewhere");
   large["options"].update({{"csv", In("disk/large.csv")}, {"seconds", 5}});
@@ -158,7 +153,7 @@ TEST_F(Batch, NamesJobsWhoseDiskIsFullAndDoesTheOthers) {
 
 // Nobody would know what has been done.
 TEST_F(Batch, SaysThatResultsAreNotThereWhenTheirDiskIsFull) {
-  if (!CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
+  if (!testing::CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
   fs::create_directory(In("disk"));
   std::vector<json> jobs;
   for (int i = 0; i < 20; ++i) {

@@ -51,4 +51,6 @@ ProgramResult RunProgram(const std::vector<std::string>& command,
   return result;
 }
 
+bool CanMount() { return RunProgram({"/usr/bin/unshare", "-rm", "/bin/true"}).exit_code == 0; }
+
 }  // namespace kinescope::testing

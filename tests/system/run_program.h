@@ -17,4 +17,7 @@ struct ProgramResult {
 ProgramResult RunProgram(const std::vector<std::string>& command,
                          const std::vector<std::string>& environment = {}, int timeout_secs = 240);
 
+/// Also without being root: a user namespace has mounts of its own.
+bool CanMount();
+
 }  // namespace kinescope::testing

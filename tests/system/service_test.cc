@@ -159,12 +159,9 @@ TEST(Service, ResultsThatNobodyReadsAnyMoreEndACommandWithoutAWord) {
   }
 }
 
-// Also without being root: a user namespace has mounts of its own.
-bool CanMount() { return RunProgram({"/usr/bin/unshare", "-rm", "/bin/true"}).exit_code == 0; }
-
 // Mesa maps its index; storing to a page of a full disk ends a process with SIGBUS.
 TEST(Service, AFullDiskUnderTheShaderCacheEndsNoProcess) {
-  if (!CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
+  if (!testing::CanMount()) GTEST_SKIP() << "unshare -rm is not permitted here";
   const TempFolder folder;
   fs::create_directory(folder / "cache");
   // 12 kB are left: enough for the folder of the cache, but not for all keys of its index.
