@@ -26,7 +26,7 @@ const FLAGS = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio',
 ];
 const PATIENCE_MILLIS = 60000;  // only a failure takes so long
-const SELDOM_MILLIS = 200;
+const SELDOM_MILLIS = 200, BLANK_MILLIS = 80;
 
 let browser = null;
 let drawsNothing = false;
@@ -153,8 +153,11 @@ export async function openPage(url, options = {}) {
     const { protocol, host } = new URL(request.url());
     if (protocol !== 'blob:' && protocol !== 'data:' && host !== home) problems.push(`foreign request: ${request.url()}`);
   });
-  if (drawsNothing && (options.isDrawn || process.env.KINESCOPE_DRAWN)) await page.addInitScript(drawSeldom, SELDOM_MILLIS);
-  else if (drawsNothing) await page.addInitScript(blankWebGl);
+  if (drawsNothing) {
+    const isDrawn = options.isDrawn || process.env.KINESCOPE_DRAWN;
+    if (!isDrawn) await page.addInitScript(blankWebGl);
+    await page.addInitScript(drawSeldom, isDrawn ? SELDOM_MILLIS : BLANK_MILLIS);
+  }
   await options.beforeLoad?.(page);
   await page.goto(url, { waitUntil: 'load' });
   return { page, problems, requests, close: () => context.close() };

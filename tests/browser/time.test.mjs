@@ -137,7 +137,10 @@ for (const [layout, viewport] of [['desk', DESKTOP], ['phone', PHONE], ['wall', 
 
 test('playing goes on from the pause at the speed that is chosen, and catches up at 8 times', async () => {
   const { page, close } = await openLive(3);
+  const live = await sampleOf(page);
   await page.keyboard.press('Home');
+  // The status turns at once, the sample with the answer of the server.
+  await page.waitForFunction((newest) => Number(document.getElementById('sample').textContent) < newest - 60, live, LONG);
   await statusIs(page, /^Behind/);
   const start = await sampleOf(page);
   await page.keyboard.press('Space');
