@@ -195,8 +195,8 @@ TEST(RobotModel, RejectsImpossibleSizes) {
 
 TEST(RobotModel, ReadsThePublishedHumanModelsOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
-  using testing::ReadFile;
-  using testing::SharedData;
+  using kinescope::testing::ReadFile;
+  using kinescope::testing::SharedData;
   const auto gazebo =
       ParseUrdf(ReadFile(SharedData("models/human-gazebo/humanSubject01_66dof.urdf")));
   EXPECT_EQ(gazebo.root_link, "Pelvis");

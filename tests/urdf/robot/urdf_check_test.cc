@@ -229,8 +229,8 @@ TEST(UrdfCheck, ChecksAMillionElementsInSeconds) {
 
 TEST(UrdfCheck, AcceptsThePublishedHumanModelsOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
-  using testing::ReadFile;
-  using testing::SharedData;
+  using kinescope::testing::ReadFile;
+  using kinescope::testing::SharedData;
   for (const char* file : {"humanSubject01_66dof.urdf", "humanSubject01_48dof.urdf"}) {
     const UrdfReport report =
         Check(ReadFile(SharedData(std::string("models/human-gazebo/") + file)));
