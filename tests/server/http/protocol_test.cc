@@ -10,9 +10,9 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "server/http/look_back.h"
+#include "tests/folders.h"
 #include "tests/server/http/past_message.h"
 #include "tests/server/http/test_scene.h"
-#include "tests/source_tree.h"
 #include "tests/worn.h"
 
 namespace kinescope::http {
