@@ -39,7 +39,7 @@ TEST(PeopleFrames, PreferTheLongestCommonSuffixAndTheShortestName) {
 TEST(PeopleFrames, FindNoPersonInTwentyTwoSegments) {
   PeopleFrames frames;
   for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
-    frames.Add("a_" + std::string(urdf::kSegments[At(segment)].link_name));
+    frames.Add("a_" + std::string(urdf::kSegments[urdf::At(segment)].link_name));
   }
   frames.Find();
   EXPECT_THAT(frames.people(), IsEmpty());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "server/ros/link_states.h"
 #include "server/ros/person_messages.h"
 #include "server/ros/raw_message.h"
 #include "tests/recording_sink.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/system/clocks.h"
-#include "server/ros/transforms.h"
 #include "tests/recording_sink.h"
+#include "tests/server/ros/source/written_bag.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -26,12 +26,6 @@ using ::testing::UnorderedElementsAre;
 constexpr std::int64_t kTransformsStart = 1'700'000'000'000 * kNanosPerMilli;
 constexpr std::int64_t kSettle = 250 * kNanosPerMilli;
 constexpr std::int64_t kTransformsPeriod = 10 * kNanosPerMilli;
-
-tf2_msgs::TFMessage TransformsOf(const PersonState& person, TfShape shape = TfShape::kFlat) {
-  tf2_msgs::TFMessage message;
-  FillTransforms(person, PersonNames(person.model->human.model_name), "world", shape, message);
-  return message;
-}
 
 tf2_msgs::TFMessage FrameAtOrigin(const std::string& parent, const std::string& child) {
   tf2_msgs::TFMessage message;
