@@ -45,10 +45,10 @@ void UseLargePages() {
   ::mallopt(M_TRIM_THRESHOLD, static_cast<int>(2 * kBytes));
   void* volatile grows = std::malloc(std::size_t{1} << 20);
   std::free(grows);
-  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kPage - 1);
+  char* const top = static_cast<char*>(::sbrk(0));
+  char* const end = top - reinterpret_cast<std::uintptr_t>(top) % kPage;
   // Without them it is only slower.
-  static_cast<void>(
-      ::madvise(reinterpret_cast<void*>(end - kBytes + kPage), kBytes - kPage, MADV_HUGEPAGE));
+  static_cast<void>(::madvise(end - kBytes + kPage, kBytes - kPage, MADV_HUGEPAGE));
 }
 
 int Compare(const char* one, const char* other) {
