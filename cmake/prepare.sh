@@ -73,7 +73,8 @@ enough_room() {
 # make_cost_meter: builds made from then on measure what each unit and each test costs (tests/gate/cost.cc).
 make_cost_meter() {
   cost_meter=$PWD/build/cost
-  [ "$cost_meter" -nt tests/gate/cost.cc ] || clang++ -O1 -std=c++17 tests/gate/cost.cc -o "$cost_meter" || die "compiling tests/gate/cost.cc failed, see above"
+  [ "$cost_meter" -nt tests/gate/cost.cc ] || clang++ -O1 -std=c++17 tests/gate/cost.cc -o "$cost_meter" ||
+    die "compiling tests/gate/cost.cc failed, see above"
   export KINESCOPE_COST_METER=$cost_meter
 }
 

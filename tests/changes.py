@@ -39,9 +39,10 @@ def parse_options(parser):
     return options
 
 
-def names_changed_since(commit):
+def names_changed_since(commit, with_removed=False):
     """Files that differ from the commit, and new ones, as paths from the top folder."""
-    return {name for words in (("diff", "--name-only", "--diff-filter=d", "-z", commit),
+    kinds = [] if with_removed else ["--diff-filter=d"]
+    return {name for words in (("diff", "--name-only", *kinds, "-z", commit),
                                ("ls-files", "--others", "--exclude-standard", "-z"))
             for name in git(*words) or [] if name}
 

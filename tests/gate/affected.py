@@ -13,19 +13,19 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from changes import git  # noqa: E402
+from changes import git, names_changed_since  # noqa: E402
 from compile_flags import TOP  # noqa: E402
 
 PROGRAM, MODULES = "bin/kinescope", "kinescope_modules"
 EVERYTHING = re.compile(r"(^|/)CMakeLists\.txt$|^cmake/|^CMakePresets\.json$|^packages\.txt$|^check$|^tests/gate/|^tests/[^/]*$|\.in$")
 OWNERS = (  # files that are not compiled -> names of tests that read them
     (r"^web/|^tests/browser/", r"web_unit|browser_.*|installation|system_test\.(Page|Golden|Dashboard|Sinks).*|ros_system_test\.(Pipeline|View).*"),
-    (r"^docs/|^[A-Z]+\.md$", r"documents|loads_schema|http_api|golden_example"),
-    (r"^golden_images/", r"golden_.*|documents"),
-    (r"^launch/|^package\.xml$", r"rostest.*|launch_files|many_.*|catkin_workspace|documents|installation|ros_system_test.*"),
+    (r"^docs/|^[A-Z]+\.md$", r"documents\..*|loads_schema|http_api|golden_example"),
+    (r"^golden_images/", r"golden_.*|documents\..*"),
+    (r"^launch/|^package\.xml$", r"rostest.*|launch_files|many_.*|catkin_workspace|documents\..*|installation|ros_system_test.*"),
     (r"^tests/many/", r"many_.*"),
-    (r"^tests/fuzz/corpus/", r"fuzz_.*"),
-    (r"^demo$", r"scripts|demo_targets|documents"),
+    (r"^tests/fuzz/corpus/", r"fuzz\..*"),
+    (r"^demo$", r"scripts|demo_targets|documents\..*"),
     (r"^tests/soak/|^\.ci/|^LICENSE$|^\.git|^\.clang", r"$^"),
 )
 COMPILED = re.compile(r"\.(cc|h|cpp|hpp|c)$")
@@ -42,8 +42,7 @@ class Change:
         if git("rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}") is None:
             raise UnknownRevision(f"--since={revision}: unknown revision; `git log --oneline` lists those there are")
         self.revision = revision
-        self.files = {name for words in (("diff", "--name-only", "-z", revision), ("ls-files", "--others", "--exclude-standard", "-z"))
-                      for name in git(*words) or [] if name}
+        self.files = names_changed_since(revision, with_removed=True)
         self.for_everything = sorted(name for name in self.files if self._owner(name) is None and not COMPILED.search(name)
                                      or EVERYTHING.search(name))
 
@@ -165,22 +164,18 @@ def narrowed(stages, change):
 
 
 def _narrowed(command, change):
-    words = [str(word) for word in command.words]
-    is_build = command.builds and words[:2] == ["bash", "-c"] and len(words) == 5
-    is_test = words[0] == "ctest"
-    if not is_build and not is_test:
+    if command.preset is None:
         return command
-    preset = words[4] if is_build else words[words.index("--preset") + 1]
-    build = Build(TOP / "build" / ("dev" if preset.startswith("dev") else preset))
+    build = Build(TOP / "build" / ("dev" if command.preset.startswith("dev") else command.preset))
     if not build.is_built():
         return command
-    names, programs, every = affected_tests(change, build, preset)
+    names, programs, every = affected_tests(change, build, command.preset)
     if not names:
         return None
     command = copy.deepcopy(command)
-    if is_build:
-        command.words += sorted(programs | ({PROGRAM, MODULES} if preset == "dev" else set()))
+    if command.builds:
+        command.words += sorted(programs | ({PROGRAM, MODULES} if command.preset == "dev" else set()))
     else:
-        print(f"left out: {len(every) - len(names)} of {len(every)} tests of {preset}")
+        print(f"left out: {len(every) - len(names)} of {len(every)} tests of {command.preset}")
         command.words += ["-R", pattern_of(names, every)]
     return command

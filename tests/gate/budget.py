@@ -9,6 +9,7 @@ tests/gate/budget.py --accept RUN.json --why TEXT    writes the prices of that r
 import argparse
 import json
 import pathlib
+import resource
 import statistics
 import subprocess
 import sys
@@ -19,17 +20,20 @@ LISTED = 10  # dearest units and tests
 KINDS = ("units", "tests")
 
 
+def cpu_of_children():
+    """CPU seconds of all processes that have been waited for."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def yardstick(compiler="clang++"):
     """CPU seconds of the yardstick now, with as many at a time as the gate runs compilers."""
-    import resource
-
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = cpu_of_children()
     words = [compiler, "-std=c++17", "-O2", "-c", str(TOP / "tests/gate/yardstick.cc"), "-o", "/dev/null"]
     compilers = [subprocess.Popen(words) for _ in range(2)]
     if any([process.wait() for process in compilers]):
         raise RuntimeError(f"{' '.join(words)} failed: without the yardstick no price can be judged")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime) / 2
+    return (cpu_of_children() - before) / 2
 
 
 class Budget:

@@ -33,15 +33,17 @@ def say(text):
     print(f"\033[1m== {text}\033[0m", flush=True)
 
 
-def build(preset, *targets):
+def build(preset, *targets, is_for_tests=True):
     """Configures if that is needed; goes on after an error, so that one run reports all."""
     script = 'keep_going=yes; . cmake/prepare.sh; build "$@"'
-    return Command(["bash", "-c", script, "check", preset, *targets], what=f"building {preset}", builds=True)
+    return Command(["bash", "-c", script, "check", preset, *targets], what=f"building {preset}", builds=True,
+                   preset=preset if is_for_tests else None)
 
 
 def ctest(preset, *words, jobs=JOBS):
     results = FOLDER / f"{preset}.xml"
-    return Command(["ctest", "--preset", preset, f"-j{jobs}", "--output-junit", results, *words], what=f"tests of {preset}", results=results)
+    return Command(["ctest", "--preset", preset, f"-j{jobs}", "--output-junit", results, *words], what=f"tests of {preset}", results=results,
+                   preset=preset)
 
 
 def all_stages(quick):
@@ -55,7 +57,7 @@ def all_stages(quick):
             Command(["node", "--test", "tests/browser/types.test.mjs"], what="types of the page"),
         ]),
         Stage("headers and clang-tidy", [
-            build("asan", "kinescope_ros_messages"),
+            build("asan", "kinescope_ros_messages", is_for_tests=False),
             Command([PYTHON, "tests/headers_test.py", "build/asan"], what="headers"),
             Command([PYTHON, "tests/tidy_test.py", "build/asan"], what="clang-tidy"),
         ]),

@@ -2,11 +2,12 @@
 import dataclasses
 import os
 import re
-import resource
 import subprocess
 import sys
 import time
 import xml.etree.ElementTree
+
+from budget import cpu_of_children
 
 MOST_LINES = 400  # of the output of a command, in which its findings are looked for
 LOCK = 9          # of ./check; a compiler that outlives it still holds it, a program that outlives its test does not
@@ -21,6 +22,7 @@ class Command:
     what: str = ""                 # in the list of failures; else the command
     env: dict = None               # added to the environment
     builds: bool = False           # holds the lock
+    preset: str = None             # whose tests it builds or runs
     results: object = None         # path of the JUnit file that ctest writes
     skipped_code: int = None       # exit code of a check that could not be made here
 
@@ -70,11 +72,6 @@ class Stage:
             return
         what = command.what or " ".join(map(str, command.words))
         self.failures += [Failure(self.name, f"{what}: {line}") for line in findings(lines, code)]
-
-
-def cpu_of_children():
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage.ru_utime + usage.ru_stime
 
 
 def is_open(descriptor):
