@@ -59,5 +59,13 @@ function(kinescope_check_undefined)
       # vptr: its run-time misjudges classes of GCC's standard library. The others: a third of the compile time, for what the
       # sanitizer of addresses finds when it is used.
       $<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=vptr,null,object-size>)
+    kinescope_link_first(${target})
   endforeach()
+endfunction()
+
+# kinescope_link_first(<library>): the linker reads it before the objects of a program. Of an inline function that several objects
+# have, it takes the first, and a test's own is not optimised: Eigen's in the loops of a library, which then take twice as long.
+function(kinescope_link_first target)
+  target_link_options(${target} INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:LINKER:--whole-archive,$<TARGET_FILE:${target}>,--no-whole-archive>)
 endfunction()
