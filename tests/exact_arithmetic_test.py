@@ -9,24 +9,21 @@ import re
 import subprocess
 import sys
 
-ESTIMATE = re.compile(r"\tv?(rsqrt|rcp)(14|28)?(ss|ps|sd|pd)\b")
-FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:$")
+ESTIMATE = re.compile(rb"\tv?(rsqrt|rcp)(14|28)?(ss|ps|sd|pd)\b")
 
 
 def estimates_in(path):
     """Functions of the file that have such an instruction."""
-    listing = subprocess.run(["objdump", "--disassemble", "--demangle", "--no-show-raw-insn", path], check=True,
-                             stdout=subprocess.PIPE, text=True).stdout
-    function, found, instructions = "", set(), 0
-    for line in listing.splitlines():
-        if begin := FUNCTION.match(line):
-            function = begin.group(1)
-        elif ESTIMATE.search(line):
-            found.add(function)
-        instructions += 1
-    if instructions < 1000:
-        sys.exit(f"{path}: has only {instructions} lines of code; is it the program?")
-    return sorted(found)
+    listing = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", path], check=True, stdout=subprocess.PIPE).stdout
+    lines = listing.count(b"\n")
+    if lines < 1000:
+        sys.exit(f"{path}: has only {lines} lines of code; is it the program?")
+    found = set()
+    for hit in ESTIMATE.finditer(listing):
+        end = listing.rfind(b">:\n", 0, hit.start())
+        found.add(listing[listing.rfind(b"<", 0, end) + 1:end].decode())
+    names = subprocess.run(["c++filt"], check=True, input="\n".join(sorted(found)), stdout=subprocess.PIPE, text=True).stdout
+    return names.splitlines()
 
 
 def main():
