@@ -89,12 +89,17 @@ const std::array<int, 15> kSphereJoints = {jL5S1,         jT9T8,       jT1C7,   
                                            jLeftKnee,     jRightAnkle, jLeftAnkle};
 
 std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision) {
-  auto model = std::make_shared<PersonModel>();
-  model->human.skeleton = DefaultSkeleton();
-  model->description.mass_is_assumed = false;
-  model->human.body = MakeBodyParameters(model->description, model->human.skeleton);
-  model->urdf_xml = WriteUrdf(model->human);
-  model->robot = ParseUrdf(model->urdf_xml);
+  // Once: tests ask for it for every scene, and writing and reading a URDF takes long.
+  static const PersonModel person = [] {
+    PersonModel made;
+    made.human.skeleton = DefaultSkeleton();
+    made.description.mass_is_assumed = false;
+    made.human.body = MakeBodyParameters(made.description, made.human.skeleton);
+    made.urdf_xml = WriteUrdf(made.human);
+    made.robot = ParseUrdf(made.urdf_xml);
+    return made;
+  }();
+  auto model = std::make_shared<PersonModel>(person);
   model->revision = revision;
   return model;
 }

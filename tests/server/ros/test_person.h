@@ -3,24 +3,35 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/scene_state.h"
 
 namespace kinescope::testing {
 
+/// The same value for the same arguments: tests ask for it for every message, and writing and reading a URDF takes long.
 inline std::shared_ptr<const PersonModel> MakeModel(const std::string& name = "skeleton",
                                                     double height_m = 1.75,
                                                     std::uint64_t revision = 1) {
-  auto model = std::make_shared<PersonModel>();
-  model->human.model_name = name;
-  model->human.skeleton = urdf::DefaultSkeleton(height_m);
-  model->human.body = urdf::MakeBodyParameters(model->description, model->human.skeleton);
-  model->urdf_xml = urdf::WriteUrdf(model->human);
-  model->robot = urdf::ParseUrdf(model->urdf_xml);
-  model->revision = revision;
-  return model;
+  static std::map<std::tuple<std::string, double, std::uint64_t>,
+                  std::shared_ptr<const PersonModel>>
+      made;
+  std::shared_ptr<const PersonModel>& known = made[{name, height_m, revision}];
+  if (!known) {
+    auto model = std::make_shared<PersonModel>();
+    model->human.model_name = name;
+    model->human.skeleton = urdf::DefaultSkeleton(height_m);
+    model->human.body = urdf::MakeBodyParameters(model->description, model->human.skeleton);
+    model->urdf_xml = urdf::WriteUrdf(model->human);
+    model->robot = urdf::ParseUrdf(model->urdf_xml);
+    model->revision = revision;
+    known = std::move(model);
+  }
+  return known;
 }
 
 /// Angles that no two joints or axes share, all well within +-90 deg; they change with `phase`.
