@@ -7,8 +7,10 @@
 #include <malloc.h>
 
 #include <bitset>
+#include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
@@ -54,13 +56,20 @@ std::int64_t LiveBytes() {
   return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-// The sample number `index`, always the same, so that none needs to be kept.
-BodySample SentSample(int index) {
-  RandomValues random(static_cast<std::uint32_t>(index));
-  const std::uint32_t counter = kFirstCounter + static_cast<std::uint32_t>(index);
-  BodySample sample = testing::RandomSample(random, counter);
-  sample.time_code_millis = std::llround(counter * 1000 / kRateHz);
-  return sample;
+// The samples that are sent, the same in each test.
+const BodySample& SentSample(int index) {
+  static const std::vector<BodySample> sent = [] {
+    std::vector<BodySample> samples;
+    samples.reserve(kSamples);
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      RandomValues random(i);
+      const std::uint32_t counter = kFirstCounter + i;
+      samples.push_back(testing::RandomSample(random, counter));
+      samples.back().time_code_millis = std::llround(counter * 1000 / kRateHz);
+    }
+    return samples;
+  }();
+  return sent[static_cast<std::size_t>(index)];
 }
 
 // What is wrong with `came`, of which `types` arrived; "" if nothing.
