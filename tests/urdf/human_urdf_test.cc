@@ -65,7 +65,7 @@ TEST(HumanUrdf, MovesAsComputedByTheKinematics) {
   std::uniform_real_distribution<double> angle(-1.2, 1.2);
   const HumanModel human = Human();
   const RobotModel robot = ParseUrdf(WriteUrdf(human));
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
     JointAngles angles;
     std::map<std::string, double> positions;
     for (int joint = 0; joint < kJointCount; ++joint) {
@@ -316,7 +316,7 @@ TEST(HumanUrdf, IsTheSameTextForTheSameBodyAndHasNoFingersWithoutGloves) {
 
 TEST(HumanUrdf, HasTheMassOfTheBodyInEveryVariant) {
   std::mt19937 random(18);
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
     HumanModel human = RandomHuman(random);
     human.mass_inside_joints = trial % 2 == 1;
     double mass = 0;
@@ -395,7 +395,7 @@ TEST(HumanUrdf, HasOneSetOfVisualsAndOneCollisionShapePerGlovedHand) {
 
 TEST(HumanUrdf, HasEveryCentreOfMassInsideItsSegmentsCollisionShapes) {
   std::mt19937 random(19);
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < 40; ++trial) {
     for (const Link& link : ParseUrdf(WriteUrdf(RandomHuman(random))).links) {
       if (!link.inertial) continue;
       const Vector3d com = link.inertial->link_from_inertial.translation();

@@ -210,11 +210,12 @@ TEST(MeshFile, RejectsOrReadsEveryTruncation) {
        {std::pair(BoxStl(), ".stl"), std::pair(BoxDae(), ".dae"), std::pair(BoxGlb(), ".glb"),
         std::pair(BoxObj(), ".obj")}) {
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-      EXPECT_FALSE(Fault(bytes.substr(0, size), extension).empty());
+      const std::string fault = Fault(bytes.substr(0, size), extension);
+      EXPECT_FALSE(fault.empty());
+      if (extension == std::string(".glb")) {
+        EXPECT_NE(fault, "accepted") << size;
+      }
     }
-  }
-  for (std::size_t size = 0; size < BoxGlb().size(); ++size) {
-    EXPECT_NE(Fault(BoxGlb().substr(0, size), ".glb"), "accepted") << size;
   }
 }
 
