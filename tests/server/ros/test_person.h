@@ -13,7 +13,8 @@
 
 namespace kinescope::testing {
 
-/// The same value for the same arguments: tests ask for it for every message, and writing and reading a URDF takes long.
+/// The same value for the same arguments: tests ask for it for every message, and writing and
+/// reading a URDF takes long.
 inline std::shared_ptr<const PersonModel> MakeModel(const std::string& name = "skeleton",
                                                     double height_m = 1.75,
                                                     std::uint64_t revision = 1) {
