@@ -66,7 +66,7 @@ class DashboardTest : public ::testing::Test {
 };
 
 TEST_F(DashboardTest, OfAMomentIsTheSameToTheByteEachTime) {
-  for (const char* query : {"", "view=wall&theme=dark", "tab=plots", "tab=controls"}) {
+  for (const char* query : {"", "view=wall&theme=dark", "tab=plots"}) {
     DashboardSpec spec = SpecOf("demo:lift", 2);
     spec.query = query;
     const PageDrawing one = DrawDashboard(spec), other = DrawDashboard(spec);
