@@ -248,9 +248,10 @@ def try_kinescope(words, folder):
     if words[1:3] == ["golden", "stress"]:  # each case is drawn ten times
         for case in words[4:]:
             (pathlib.Path(folder) / f"golden_images/{case}.yaml").open("a").write("size: 320x180\n")
-    if command == "render" and any(word.endswith((".mp4", ".webm", ".gif")) for word in words):  # drawing and encoding by the processor
-        words += [] if "--size" in words else ["--size", "320x180"]
-        words += ["--seconds", "1"] if RECORDING in words else []
+    if command == "render" and "--out" in words:  # the processor draws and encodes
+        words += [] if "--size" in words else ["--size", "640x360"]
+        is_clip = any(word.endswith((".mp4", ".webm", ".gif")) for word in words)
+        words += ["--seconds", "1"] if is_clip and RECORDING in words else []
     return run(words, folder)
 
 
