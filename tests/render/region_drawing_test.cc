@@ -177,7 +177,7 @@ TEST(RegionDrawing, GivesTheBytesOfWholePicturesOfWhatIsNotOrdinary) {
     PictureSpec calm_spec = extreme.spec;
     calm_spec.look.trails.clear();
     const SceneState calm = MixedScene(Posture::kDeepBend);
-    for (int picture = 0; picture < 6; ++picture) {  // it comes and goes
+    for (int picture = 0; picture < 4; ++picture) {  // it comes and goes
       const bool is_calm = picture % 2 == 1;
       const SceneState& state = is_calm ? calm : extreme.state;
       const PictureSpec& spec = is_calm ? calm_spec : extreme.spec;

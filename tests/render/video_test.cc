@@ -187,12 +187,12 @@ TEST(Video, KeepsTheFrameRateExactly) {
   for (const FrameRate& rate :
        {FrameRate{60, 1}, {30000, 1001}, {60000, 1001}, {24000, 1001}, {25, 2}, {240, 1}, {1, 1}}) {
     const AVRational exact = {rate.numerator, rate.denominator};
-    WriteClip(folder / "clip.mp4", 24, rate);
+    WriteClip(folder / "clip.mp4", 8, rate);
     const Clip clip = ReadClip(folder / "clip.mp4");
     EXPECT_EQ(av_cmp_q(clip.rate, exact), 0)
         << rate.hz() << " became " << clip.rate.num << "/" << clip.rate.den;
-    EXPECT_NEAR(clip.duration_secs, 24 / av_q2d(exact), 2e-3);
-    EXPECT_EQ(clip.frames.size(), 24u);
+    EXPECT_NEAR(clip.duration_secs, 8 / av_q2d(exact), 2e-3);
+    EXPECT_EQ(clip.frames.size(), 8u);
   }
 }
 
