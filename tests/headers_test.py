@@ -6,7 +6,7 @@ tests/headers_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N] [--tests]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
   definitions of each folder; generated headers (ROS messages) must exist. Compiles the headers that differ
   from COMMIT, and those that include, directly or not, one that has lost an include or a declaration since; but for those that have
-  passed here before as they are (tests/gate/passed.py). Default of COMMIT: the last commit that is known to have passed
+  passed here before as they are (tests/gate/passed.py). The sources of tests/bench are looked at in the same way. Default of COMMIT: the last commit that is known to have passed
   (tests/changes.py); if none is known, all are compiled. --all: compiles all, whatever has passed, which takes five CPU minutes. --tests: also the headers of tests/, which is slow because of GoogleTest.
   Exit code 1 if an include is missing; one line per finding: header, line, problem.
 """
@@ -24,6 +24,7 @@ from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 from gate.passed import Passed, key_of
 
 FOLDERS = ("urdf", "core", "server", "render")
+BENCHES = "tests/bench"  # ./check builds none of them
 
 # Header -> std:: names that need it. If several headers are listed, a finding names the first.
 STANDARD = {
@@ -266,7 +267,9 @@ def main():
     findings = [finding for name in headers
                 for finding in missing_by_text(name, (TOP / name).read_text())]
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
+    alone += sorted(path.relative_to(TOP).as_posix() for path in (TOP / BENCHES).glob("*.cc") if options.only in path.as_posix())
     closures, flags = Closures(), read_flags(options.build.resolve())
+    flags[BENCHES] = [word for of_folder in flags.values() for word in of_folder]  # they are no part of a sanitized build
     keys, passed = Keys(closures, flags), Passed("headers")
     if not options.all:
         if options.since is not None:
