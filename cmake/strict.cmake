@@ -21,7 +21,7 @@ add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=
 # Sources of a target are compiled several at a time: reading the headers is most of their price. Off: one by one, as an editor's
 # language server likes it.
 option(CMAKE_UNITY_BUILD "Compile the sources of a target in batches" ON)
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 18)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 26)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "" FORCE)
 endif()
