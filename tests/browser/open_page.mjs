@@ -26,15 +26,18 @@ const FLAGS = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio',
 ];
 const PATIENCE_MILLIS = 60000;  // only a failure takes so long
-const SELDOM_MILLIS = 200, BLANK_MILLIS = 80;
+const SELDOM_MILLIS = 200, PICTURE_MILLIS = 500, BLANK_MILLIS = 80;
 
 let browser = null;
-let drawsNothing = false;
+let drawsNothing = false, isSeldom = false;
 
 /** For tests of what stands beside the view: the pages that are opened from now on draw nothing in it, unless they say
  *  `isDrawn`, and then five times a second. Software WebGL takes most of two cores otherwise, and everything waits for it.
  *  With KINESCOPE_DRAWN all of them draw, for whoever wants to look at their screenshots. */
 export function drawNothing() { drawsNothing = true; }
+
+/** For tests of single pictures: the pages that are opened from now on draw twice a second. */
+export function drawSeldom() { isSeldom = true; }
 
 async function launch() {
   if (!existsSync(CHROMIUM)) {
@@ -121,7 +124,7 @@ export function startFixture(args = []) {
 }
 
 /** In the page, before its own programs. @param {number} millis */
-function drawSeldom(millis) {
+function drawEvery(millis) {
   const nextFrame = window.requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (draw) => window.setTimeout(() => nextFrame(draw), millis);
 }
@@ -156,7 +159,9 @@ export async function openPage(url, options = {}) {
   if (drawsNothing) {
     const isDrawn = options.isDrawn || process.env.KINESCOPE_DRAWN;
     if (!isDrawn) await page.addInitScript(blankWebGl);
-    await page.addInitScript(drawSeldom, isDrawn ? SELDOM_MILLIS : BLANK_MILLIS);
+    await page.addInitScript(drawEvery, isDrawn ? SELDOM_MILLIS : BLANK_MILLIS);
+  } else if (isSeldom) {
+    await page.addInitScript(drawEvery, PICTURE_MILLIS);
   }
   await options.beforeLoad?.(page);
   await page.goto(url, { waitUntil: 'load' });
@@ -238,6 +243,7 @@ export const pixelsOfPng = (png) => PNG.sync.read(png);
 export async function settled(page, selector = '#view') {
   let last = await pictureOf(page, selector);
   for (;;) {
+    await page.evaluate(() => new Promise((drawn) => { requestAnimationFrame(() => requestAnimationFrame(drawn)); }));
     const next = await pictureOf(page, selector);
     if (next.equals(last)) return pixelsOfPng(next);
     last = next;

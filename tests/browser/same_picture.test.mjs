@@ -97,6 +97,7 @@ test('each mark has the size that it has in the picture', async () => {
   };
   const bare = await open(''), empty = await settled(bare.page), size = { width: empty.width, height: empty.height };
   const sameCamera = await cameraOf(bare.page, 'three_quarter', size);
+  await bare.close();
   const draw = (shown) => serverPixels(file, sameCamera, size, [...PLAIN, hide(shown), ...person]);
   const nothing = await draw('');
   for (const part of POINTS) {
@@ -113,7 +114,6 @@ test('each mark has the size that it has in the picture', async () => {
     assert.deepEqual(visit.problems, []);
     await visit.close();
   }
-  await bare.close();
   await site.stop();
 });
 
@@ -198,6 +198,7 @@ test('markers and a robot of other ROS nodes cover the same pixels on the page, 
   const before = await shown.page.evaluate(loaded);
   publisher.stdin.write('go\n');
   while (await shown.page.evaluate(loaded) === before) await setTimeout(50);
+  await shown.close();
   const query = `&t=${(madeMicros / 1e6).toFixed(6)}`;
   const former = await whatCovers(site, 'front', { ...MARKERS, query }, { 'status-word': 'Recording' });
   await saveScreenshot(former.page, 'same_markers_of_a_former_moment');
@@ -234,7 +235,6 @@ test('markers and a robot of other ROS nodes cover the same pixels on the page, 
     assert.ok(count > 0.01 * legend.length, `${count} pixels`);
     assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels on the ${name} are within a pixel of those of the ${otherName}`);
   }
-  await shown.close();
   publisher.kill();
   stop();
 });

@@ -9,11 +9,12 @@ import { createInterface } from 'node:readline';
 import { after, before } from 'node:test';
 import { LiveCamera } from '../../web/live_camera.js';
 import { decodePast, decodeState, KIND } from '../../web/state_codec.js';
-import { closeBrowser, endWithTests, openPage, pixelsOfPng, settled } from './open_page.mjs';
+import { closeBrowser, drawSeldom, endWithTests, openPage, pixelsOfPng, settled } from './open_page.mjs';
 
 export const LONG = { timeout: 60000 };  // only a failure takes so long
 const kinescope = process.env.KINESCOPE;
 export let folder;
+drawSeldom();
 before(async () => { folder = await mkdtemp(join(tmpdir(), 'kinescope-pixels-')); });
 after(async () => {
   await closeBrowser();
@@ -171,11 +172,11 @@ export async function whatCovers({ url }, camera, part, status = { 'status-note'
     await onlyView(page, true);
     return visit;
   };
+  const bare = await open(false), empty = await settled(bare.page);
+  await bare.close();  // two pages at once would wait for each other's pictures
   const visit = await open(true);
-  const bare = await open(false);
   await visit.page.waitForFunction((address) => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
     name.includes(address) && responseEnd > 0), part.address, LONG);
-  const [shown, empty] = [await settled(visit.page), await settled(bare.page)];
-  await bare.close();
+  const shown = await settled(visit.page);
   return { page: visit.page, covered: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
 }

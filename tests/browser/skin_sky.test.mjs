@@ -3,8 +3,9 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { after, test } from 'node:test';
-import { closeBrowser, openPage, startFixture } from './open_page.mjs';
+import { closeBrowser, drawSeldom, openPage, startFixture } from './open_page.mjs';
 
+drawSeldom();
 after(closeBrowser);
 
 /** In the page: places of all vertices and the open sky over them in each posture, read from where the skin's material
