@@ -38,6 +38,12 @@ fs::path FindProgram(const std::string& name) {
   return folder.empty() ? fs::path() : FirstThatExists({folder / name});
 }
 
+fs::path FindWebBundle() {
+  const fs::path here = ExecutableFolder(), bundle = "share/kinescope/web/bundle/app.js";
+  return FirstThatExists({here / ".." / bundle, here / "../.." / bundle,
+                          fs::path(KINESCOPE_BUILD_DIR) / "web/app.js"});
+}
+
 fs::path FindBuildFolder() { return FirstThatExists({KINESCOPE_BUILD_DIR}); }
 
 fs::path FindResource(const std::string& name) {

@@ -13,6 +13,9 @@ std::filesystem::path FindModule(const std::string& file_name);
 /// Path of a file or folder of Kinescope, such as "web"; empty if not found.
 std::filesystem::path FindResource(const std::string& name);
 
+/// The page's modules in one file; empty if it was not built.
+std::filesystem::path FindWebBundle();
+
 /// Those that bin/kinescope starts: of what shows a person, and of all else.
 constexpr char kMainProgram[] = "kinescope", kToolsProgram[] = "kinescope_tools";
 

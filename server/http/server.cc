@@ -191,7 +191,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
       pictures_(pictures),
       feed_(feed),
       program_diagnostics_(std::move(program_diagnostics)),
-      files_(config.web_root),
+      files_(config.web_root, config.web_bundle),
       hub_(states, pictures, feed, config.history, config.camera, counters_, config.playback,
            config.marks),
       guesses_(config.warn),

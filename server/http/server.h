@@ -135,6 +135,7 @@ struct HttpConfig {
   /// The path under which a proxy offers the page, "/lab3"; requests come with it or without.
   std::string base_path;
   std::filesystem::path web_root;                      // folder with index.html
+  std::filesystem::path web_bundle;                    // see StaticFiles; may be empty
   std::vector<CameraView> cameras;                     // in display order
   CameraFraming framing;                               // of `cameras`
   PageLook look;                                       // of people, on the page

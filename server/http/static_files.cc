@@ -44,6 +44,16 @@ fs::path Admit(const fs::path& path, const fs::path& root) {
   return canonical;
 }
 
+// Of a page that was changed since its build, the modules are served.
+bool IsNewer(const fs::path& bundle, const std::map<std::string, StaticFile>& files) {
+  std::error_code error;
+  const auto made = fs::last_write_time(bundle, error);
+  return !error && std::all_of(files.begin(), files.end(), [&](const auto& entry) {
+    const fs::path& path = entry.second.path;
+    return path.extension() != ".js" || fs::last_write_time(path, error) <= made;
+  });
+}
+
 }  // namespace
 
 const std::vector<Library>& Libraries() {
@@ -65,7 +75,7 @@ const std::vector<Library>& Libraries() {
   return kLibraries;
 }
 
-StaticFiles::StaticFiles(const fs::path& web_root) {
+StaticFiles::StaticFiles(const fs::path& web_root, const fs::path& bundle) {
   std::error_code error;
   const fs::path root = fs::canonical(web_root, error);
   if (error) return;
@@ -87,6 +97,8 @@ StaticFiles::StaticFiles(const fs::path& web_root) {
   }
   const auto index = files_.find("/index.html");
   if (index != files_.end()) files_["/"] = index->second;
+  const auto modules = files_.find("/app.js");
+  if (modules != files_.end() && IsNewer(bundle, files_)) modules->second.path = bundle;
 }
 
 const StaticFile* StaticFiles::Find(const std::string& url_path) const {

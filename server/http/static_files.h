@@ -19,8 +19,10 @@ class StaticFiles {
  public:
   /// Lists `web_root`: html, css, js, svg, png, ico and the libraries that the page imports
   /// (nothing else of node_modules). Hidden files and links that leave the folder are omitted. A
-  /// missing folder gives an empty list.
-  explicit StaticFiles(const std::filesystem::path& web_root);
+  /// missing folder gives an empty list. `bundle`: a file with all modules of the page, which is
+  /// "/app.js" unless it is missing or older than one of them; they are there beside it.
+  explicit StaticFiles(const std::filesystem::path& web_root,
+                       const std::filesystem::path& bundle = {});
 
   /// The file of a decoded URL path such as "/app.js", "/" or "/lib/three/three.module.js"; null if
   /// there is none.

@@ -34,6 +34,8 @@ for file in '' app.js lib/three/three.module.js lib/uplot/uPlot.esm.js; do
   curl -sf "$page$file" > page.txt || fail "the page has no $file"
   [ -s page.txt ] || fail "$file of the page is empty"
 done
+bundle=$room/opt/share/kinescope/web/bundle/app.js
+curl -sf "${page}app.js" | cmp -s - "$bundle" || fail "the page is not served as $bundle"
 stop
 
 [ -d "$room/opt/share/kinescope/launch" ] || { echo "without ROS"; exit 0; }

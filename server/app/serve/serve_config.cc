@@ -85,6 +85,7 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.base_path = *options.base_path;
   config.trusted_proxies = TrustedProxies(*options.trusted_proxies);
   config.web_root = FindResource("web");
+  config.web_bundle = FindWebBundle();
   config.cameras = CameraViews(options);
   config.framing = FramingOfCameras();
   config.camera =

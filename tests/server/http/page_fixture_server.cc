@@ -175,7 +175,7 @@ json SkinToJson(const PersonState& person) {
     return most * (static_cast<double>(random()) / 2147483648.0 - 1);
   };
   json postures = json::array();
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 6; ++i) {
     urdf::JointAngles angles{};
     for (Eigen::Vector3d& joint : angles) joint = {angle(2.4), angle(2.4), angle(2.4)};
     PersonState moved = person;
@@ -518,6 +518,7 @@ int Main(const std::vector<std::string>& arguments) {
   HttpConfig config;
   config.port = 0;
   config.web_root = FindResource("web");
+  config.web_bundle = FindWebBundle();
   config.cameras = MakeCameras();
   config.framing = MakeFraming();
   config.camera = "front";

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -57,6 +58,28 @@ TEST_F(StaticFilesTest, OmitsLinksOutOfTheFolder) {
   fs::create_symlink("gone.js", web() / "dangling.js");
   fs::create_directory(web() / "folder.js");
   EXPECT_THAT(Listed(), ElementsAre("/app.js", "/inside.js"));
+}
+
+TEST_F(StaticFilesTest, ServesTheBundleUnlessAModuleIsNewer) {
+  const fs::path bundle = folder_ / "build/app.js";
+  Write(bundle);
+  for (const char* name : {"index.html", "app.js", "plot.js"}) Write(web() / name);
+  const auto served = [&] { return StaticFiles(web(), bundle).Find("/app.js")->path; };
+  const auto made = fs::last_write_time(bundle);
+  const std::chrono::minutes step(1);
+  const auto change_all = [&](auto time) {
+    for (const char* name : {"app.js", "plot.js"}) fs::last_write_time(web() / name, time);
+  };
+  change_all(made - step);
+  EXPECT_EQ(served(), bundle);
+  change_all(made);  // as in a package
+  EXPECT_EQ(served(), bundle);
+  fs::last_write_time(web() / "index.html", made + step);
+  EXPECT_EQ(served(), bundle) << "it is not in the bundle";
+  fs::last_write_time(web() / "plot.js", made + step);
+  EXPECT_EQ(served(), fs::canonical(web() / "app.js"));
+  fs::remove(bundle);
+  EXPECT_EQ(served(), fs::canonical(web() / "app.js"));
 }
 
 TEST_F(StaticFilesTest, IsEmptyWithoutAFolder) {
