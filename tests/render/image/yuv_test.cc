@@ -15,26 +15,28 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int kWidth = 54, kHeight = 10;  // no multiple of a vector
+constexpr int kPlaneWidth = 54, kPlaneHeight = 10;  // no multiple of a vector
 
 struct Planes {
-  std::vector<std::uint8_t> y = std::vector<std::uint8_t>(kWidth * kHeight);
-  std::vector<std::uint8_t> u = std::vector<std::uint8_t>(kWidth * kHeight / 4);
+  std::vector<std::uint8_t> y = std::vector<std::uint8_t>(kPlaneWidth * kPlaneHeight);
+  std::vector<std::uint8_t> u = std::vector<std::uint8_t>(kPlaneWidth * kPlaneHeight / 4);
   std::vector<std::uint8_t> v = u;
 
-  YuvPlanes Borrow() { return {y.data(), u.data(), v.data(), kWidth, kWidth / 2, kWidth / 2}; }
+  YuvPlanes Borrow() {
+    return {y.data(), u.data(), v.data(), kPlaneWidth, kPlaneWidth / 2, kPlaneWidth / 2};
+  }
   bool operator==(const Planes& o) const { return y == o.y && u == o.u && v == o.v; }
 };
 
 Planes Convert(const Image& image) {
   Planes planes;
-  ToYuv(image, 0, 0, kWidth, kHeight, planes.Borrow());
+  ToYuv(image, 0, 0, kPlaneWidth, kPlaneHeight, planes.Borrow());
   return planes;
 }
 
 Image Noise(unsigned seed) {
   Image image;
-  SetSize(image, kWidth, kHeight);
+  SetSize(image, kPlaneWidth, kPlaneHeight);
   std::mt19937 random(seed);
   for (std::uint8_t& level : image.rgba) level = static_cast<std::uint8_t>(random());
   return image;
@@ -42,7 +44,7 @@ Image Noise(unsigned seed) {
 
 Image Plain(std::array<std::uint8_t, 4> color) {
   Image image;
-  SetSize(image, kWidth, kHeight);
+  SetSize(image, kPlaneWidth, kPlaneHeight);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = color[i % 4];
   return image;
 }
@@ -70,14 +72,14 @@ TEST(Yuv, IsWithinARoundingOfRealNumbers) {
   const Image image = Noise(1);
   const Planes planes = Convert(image);
   const auto at = [&](int x, int y, std::size_t channel) {
-    return image.rgba[4 * static_cast<std::size_t>(y * kWidth + x) + channel] / 255.0;
+    return image.rgba[4 * static_cast<std::size_t>(y * kPlaneWidth + x) + channel] / 255.0;
   };
   const auto luma = [](double r, double g, double b) {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      EXPECT_NEAR(planes.y[static_cast<std::size_t>(y * kWidth + x)],
+  for (int y = 0; y < kPlaneHeight; ++y) {
+    for (int x = 0; x < kPlaneWidth; ++x) {
+      EXPECT_NEAR(planes.y[static_cast<std::size_t>(y * kPlaneWidth + x)],
                   16 + 219 * luma(at(x, y, 0), at(x, y, 1), at(x, y, 2)), 0.51);
       if (x % 2 != 0 || y % 2 != 0) continue;
       std::array<double, 3> mean{};
@@ -85,7 +87,7 @@ TEST(Yuv, IsWithinARoundingOfRealNumbers) {
         mean[i] = (at(x, y, i) + at(x + 1, y, i) + at(x, y + 1, i) + at(x + 1, y + 1, i)) / 4;
       }
       const double of_mean = luma(mean[0], mean[1], mean[2]);
-      const auto uv = static_cast<std::size_t>(y / 2 * kWidth / 2 + x / 2);
+      const auto uv = static_cast<std::size_t>(y / 2 * kPlaneWidth / 2 + x / 2);
       EXPECT_NEAR(planes.u[uv], 128 + 224 * (mean[2] - of_mean) / 1.8556, 0.51);
       EXPECT_NEAR(planes.v[uv], 128 + 224 * (mean[0] - of_mean) / 1.5748, 0.51);
     }
@@ -95,8 +97,8 @@ TEST(Yuv, IsWithinARoundingOfRealNumbers) {
 TEST(Yuv, OfPartsIsThatOfTheWhole) {
   const Image image = Noise(2);
   Planes planes;
-  for (int y = 0; y < kHeight; y += 2) {
-    for (int x = 0; x < kWidth; x += 18) {
+  for (int y = 0; y < kPlaneHeight; y += 2) {
+    for (int x = 0; x < kPlaneWidth; x += 18) {
       ToYuv(image, x, y, 18, 2, planes.Borrow());
     }
   }
@@ -107,10 +109,10 @@ TEST(Yuv, LeavesTheRestAlone) {
   Planes planes;
   ToYuv(Plain({255, 255, 255, 255}), 4, 2, 6, 4, planes.Borrow());
   EXPECT_EQ(std::count(planes.y.begin(), planes.y.end(), 235), 6 * 4);
-  EXPECT_EQ(planes.y[2 * kWidth + 4], 235);
-  EXPECT_EQ(planes.y[5 * kWidth + 9], 235);
+  EXPECT_EQ(planes.y[2 * kPlaneWidth + 4], 235);
+  EXPECT_EQ(planes.y[5 * kPlaneWidth + 9], 235);
   EXPECT_EQ(std::count(planes.u.begin(), planes.u.end(), 128), 3 * 2);
-  EXPECT_EQ(planes.u[kWidth / 2 + 2], 128);
+  EXPECT_EQ(planes.u[kPlaneWidth / 2 + 2], 128);
 }
 
 TEST(Yuv, DoesNotDependOnAlpha) {
@@ -132,8 +134,8 @@ TEST(Yuv, HasTheSameBytesEverywhere) {
 
 TEST(Yuv, CopiesAlpha) {
   const Image image = Noise(5);
-  std::vector<std::uint8_t> plane(kWidth * kHeight);
-  CopyAlpha(image, plane.data(), kWidth);
+  std::vector<std::uint8_t> plane(kPlaneWidth * kPlaneHeight);
+  CopyAlpha(image, plane.data(), kPlaneWidth);
   for (std::size_t i = 0; i < plane.size(); ++i) ASSERT_EQ(plane[i], image.rgba[4 * i + 3]);
 }
 
