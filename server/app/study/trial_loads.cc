@@ -33,6 +33,16 @@ double NumberOrUnknown(const json& from, const char* name) {
   return value.is_null() ? kUnknown : value.get<double>();
 }
 
+// Not of 1e99: the conversion to a whole number is undefined.
+template <class Whole>
+Whole WholeIn(const json& from, const char* name) {
+  const json& value = from.at(name);
+  if (!value.is_number_integer()) {
+    throw std::runtime_error(fmt::format("{}: expected a whole number", name));
+  }
+  return value.get<Whole>();
+}
+
 std::string TextIn(const json& from, const char* name) {
   const json& value = from.at(name);
   return value.is_null() ? "" : value.get<std::string>();
@@ -53,7 +63,7 @@ JointLoads JointFrom(const json& from) {
   JointLoads joint;
   for (std::size_t i = 0; i < joint.samples.size(); ++i) {
     const char* const band = Name(static_cast<LoadClass>(i));
-    joint.samples[i] = from.at("samples").at(band).get<std::uint64_t>();
+    joint.samples[i] = WholeIn<std::uint64_t>(from.at("samples"), band);
   }
   joint.p10 = NumberOrUnknown(from, "p10");
   joint.p50 = NumberOrUnknown(from, "p50");
@@ -64,16 +74,16 @@ JointLoads JointFrom(const json& from) {
   joint.peak_channel = TextIn(from, "peak_channel");
   const json& high = from.at("above").at(1);
   joint.longest_high_secs = NumberOrUnknown(high, "longest_s");
-  joint.rises = high.at("rises").get<std::uint64_t>();
+  joint.rises = WholeIn<std::uint64_t>(high, "rises");
   joint.rises_per_min = NumberOrUnknown(high, "rises_per_min");
   return joint;
 }
 
 PersonLoads PersonFrom(const json& from) {
   PersonLoads person;
-  person.number = from.at("person").get<int>();
+  person.number = WholeIn<int>(from, "person");
   person.name = TextIn(from, "name");
-  person.samples = from.at("samples").get<std::uint64_t>();
+  person.samples = WholeIn<std::uint64_t>(from, "samples");
   person.secs = NumberOrUnknown(from, "seconds");
   person.mass_kg = NumberOrUnknown(from, "mass_kg");
   person.height_m = NumberOrUnknown(from, "height_m");
