@@ -24,15 +24,18 @@ fs::path FirstThatExists(const std::vector<fs::path>& candidates) {
 }  // namespace
 
 fs::path FindModule(const std::string& file_name) {
-  const fs::path here = ExecutableFolder();
-  return FirstThatExists({here / file_name, here / "../lib/kinescope" / file_name,
-                          here / "../../lib/kinescope" / file_name,
-                          fs::path(KINESCOPE_BUILD_DIR) / "lib/kinescope" / file_name});
+  const fs::path here = ExecutableFolder(), modules = "lib/kinescope";
+  fs::path beside = FirstThatExists({here / file_name});
+  if (!beside.empty()) return beside;
+  // The first folder decides: half an installation does not load the modules of another one.
+  const fs::path folder = FirstThatExists(
+      {here / ".." / modules, here / "../.." / modules, fs::path(KINESCOPE_BUILD_DIR) / modules});
+  return folder.empty() ? fs::path() : FirstThatExists({folder / file_name});
 }
 
 fs::path FindProgram(const std::string& name) {
-  // The first folder decides: half an installation does not use the programs of another one.
   const fs::path here = ExecutableFolder(), programs = "libexec/kinescope";
+  // The first folder decides, as above.
   const fs::path folder = FirstThatExists({here / ".." / programs, here / "../.." / programs,
                                            fs::path(KINESCOPE_BUILD_DIR) / programs});
   return folder.empty() ? fs::path() : FirstThatExists({folder / name});

@@ -7,7 +7,7 @@
 
 namespace kinescope {
 
-/// Path of a render module, such as "libkinescope_render_osmesa.so"; empty if it was not built.
+/// Path of a module, such as "libkinescope_render_osmesa.so"; empty if it was not built.
 std::filesystem::path FindModule(const std::string& file_name);
 
 /// Path of a file or folder of Kinescope, such as "web"; empty if not found.

@@ -1,5 +1,6 @@
 #include "core/system/stop_signal.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace kinescope {
@@ -8,6 +9,8 @@ namespace {
 volatile std::sig_atomic_t stop_signal = 0;
 
 volatile std::sig_atomic_t catches_hangup = 0, ends_at_second = 1;
+
+std::atomic<bool (*)()> of_program = nullptr;
 
 // The next signal, of whatever kind, ends the process at once.
 void OnSignal(int signal) {
@@ -32,10 +35,15 @@ void CatchStopSignals() {
   sigaction(SIGHUP, &action, nullptr);
 }
 
-bool StopRequested() { return stop_signal != 0; }
+bool StopRequested() {
+  bool (*const program)() = of_program;
+  return program != nullptr ? program() : stop_signal != 0;
+}
 
 int StopSignal() { return stop_signal; }
 
 void IgnoreFurtherStopSignals() { ends_at_second = 0; }
+
+void FollowStopRequestsOf(bool (*program)()) { of_program = program; }
 
 }  // namespace kinescope

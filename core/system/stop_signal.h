@@ -15,4 +15,8 @@ void CatchStopSignals();
 /// Call it after CatchStopSignals().
 void IgnoreFurtherStopSignals();
 
+/// For a module, which has a flag of its own: from now on StopRequested() is that of `program`;
+/// null: its own again.
+void FollowStopRequestsOf(bool (*program)());
+
 }  // namespace kinescope

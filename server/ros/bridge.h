@@ -1,6 +1,6 @@
 /// Publishes SceneState as ROS 1 topics, TF and robot_description (docs/ros.md). No ROS type
-/// appears here, so a build without ROS has the same header and a MakeRosBridge that reports what
-/// is missing.
+/// appears here: ROS itself is in a module (ros_module.h), without which these functions report
+/// what is missing.
 #pragma once
 
 #include <array>
@@ -234,14 +234,14 @@ class RosBridge {
 /// unless __name:= sets another.
 void TakeRosArguments(int& argc, char** argv, const std::string& default_name);
 
-/// Those that TakeRosArguments removed, for a program that takes this one's place: in a build
-/// without ROS, none.
+/// Those that TakeRosArguments removed, for a program that takes this one's place.
 std::vector<std::string> TakenRosArguments();
 
 bool BuiltWithRos();
 
-// The first of the following functions starts roscpp with these arguments; a process that calls
-// none of them does not touch ROS. @throws UsageError if ROS_MASTER_URI or a name is invalid.
+// The first of the following functions loads the module and starts roscpp with these arguments; a
+// process that calls none of them does not touch ROS. @throws UsageError if ROS_MASTER_URI or a
+// name is invalid, or if the module cannot be loaded.
 
 std::string MasterUri();   // "" in a build without ROS
 bool MasterIsReachable();  // contacts it, waits at most a second
@@ -260,12 +260,13 @@ struct NodeParameter {
 
 /// The private parameters, by name without "~": from `_name:=value` on the command line, else from
 /// the master; those of the command line alone if no master answers within 2.4 s, which is logged.
-/// The master is asked once, at the first call. Any thread.
+/// The master is asked once, at the first call. None without the module. Any thread.
 const std::map<std::string, NodeParameter>& PrivateParameters();
 
-/// Null for kOff.
-/// @throws UsageError for an invalid config, for kRequired without a master, or in a build without
-/// ROS.
+/// Null for kOff. For kAuto without the module: a bridge that publishes once the module can be
+/// loaded.
+/// @throws UsageError for an invalid config, for kRequired without a master or without the module,
+/// or in a build without ROS.
 [[nodiscard]] std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode);
 
 }  // namespace kinescope::ros_bridge

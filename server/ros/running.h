@@ -23,7 +23,7 @@ struct RunningNode {
 };
 
 /// By name. Only nodes whose topics are registered, so none that has ended.
-/// @throws UsageError without a master, or in a build without ROS.
+/// @throws UsageError without a master or the module, or in a build without ROS.
 std::vector<RunningNode> FindRunningNodes();
 
 /// "/lab/kinescope" for "kinescope" in the namespace "lab" of this program.

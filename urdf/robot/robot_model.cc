@@ -9,6 +9,7 @@
 #include <string>
 
 #include "urdf/robot/urdf_check.h"
+#include "urdf/robot/urdfdom_lock.h"
 #include "urdf/robot/xml_outline.h"
 
 namespace kinescope::urdf {
@@ -17,10 +18,16 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+std::mutex*& ChosenMutex() {
+  static std::mutex own;
+  static std::mutex* chosen = &own;
+  return chosen;
+}
+
 // urdfdom explains itself to console_bridge only. This collects it for the message of ours.
 class Collector : public console_bridge::OutputHandler {
  public:
-  Collector() : mutex_(GlobalMutex()) { console_bridge::useOutputHandler(this); }
+  Collector() : mutex_(UrdfdomMutex()) { console_bridge::useOutputHandler(this); }
   ~Collector() override { console_bridge::restorePreviousOutputHandler(); }
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
@@ -34,10 +41,6 @@ class Collector : public console_bridge::OutputHandler {
   std::string reason() const { return is_empty() ? "urdfdom reports no reason" : errors_; }
 
  private:
-  static std::mutex& GlobalMutex() {  // the handler is global to the process
-    static std::mutex mutex;
-    return mutex;
-  }
   std::lock_guard<std::mutex> mutex_;
   std::string errors_;
   int count_ = 0;
@@ -224,6 +227,10 @@ RobotJoint ToJoint(const ::urdf::Joint& from, std::vector<std::string>& notes) {
 }
 
 }  // namespace
+
+std::mutex& UrdfdomMutex() { return *ChosenMutex(); }
+
+void UseUrdfdomMutexOf(std::mutex& program) { ChosenMutex() = &program; }
 
 RobotModel Translucent(RobotModel model, double opacity) {
   for (Link& link : model.links) {

@@ -44,6 +44,13 @@ TEST(StopSignal, IsSentByCtrlCByServiceManagersAndByAClosedTerminal) {
 
 TEST(StopSignal, AClosedTerminalStopsNothingUnderNohup) { EXPECT_EQ(EffectOf(SIGHUP, true), 1); }
 
+TEST(StopSignal, OfTheProgramIsThatOfAModule) {
+  FollowStopRequestsOf([] { return true; });
+  EXPECT_TRUE(StopRequested());
+  FollowStopRequestsOf(nullptr);
+  EXPECT_FALSE(StopRequested());
+}
+
 // A signal that comes between two reads interrupts neither.
 TEST(StopSignal, EndsAPipeThatIsReadAfterIt) {
   const testing::TempFolder folder;

@@ -89,6 +89,18 @@ TEST_F(LateMaster, ThatNeverAnswersIsNamedWithWhatIsMissing) {
   EXPECT_EQ(bridge.WaitForEnd(), 0);
 }
 
+// The module's functions are found before those of the ROS libraries that it loads.
+TEST_F(LateMaster, WhoseAnswersAreTooDeepIsNotBelieved) {
+  const BadMaster master([](int connection, const std::string&) {
+    testing::Send(connection, testing::Answer(testing::Nested(40)));
+  });
+  Process bridge = Start(master, "");
+  const std::string log = LogUntil(bridge, "deeper than 32 levels");
+  EXPECT_NE(log.find("values nested deeper than 32 levels"), std::string::npos) << log;
+  bridge.Signal(SIGINT);
+  EXPECT_EQ(bridge.WaitForEnd(), 0);
+}
+
 // The first question of each is that for another node of this name.
 TEST_F(LateMaster, IsNamedByInspectAndUrdf) {
   const BadMaster master(NeverAnswer);
