@@ -92,6 +92,38 @@ end "$holder"
 end "$child"
 echo 'ok: nothing that a test leaves behind keeps the lock'
 
+# Ctrl-C while ./demo builds the rest: nothing keeps running. Programs stand in for the compiler and for Kinescope.
+programs=$room/programs
+mkdir -p "$programs" "$tree/build/dev/bin" "$tree/web/node_modules"
+cp "$tree/web/package-lock.json" "$tree/web/node_modules/.kinescope-lock"
+touch "$tree/build/dev/build.ninja"
+cat > "$programs/ninja" <<'S'
+#!/bin/sh
+case " $* " in *' -n '*) exit ;; esac
+echo $$ > "$PIDS/ninja.new" && mv "$PIDS/ninja.new" "$PIDS/ninja" && exec sleep 600
+S
+cat > "$tree/build/dev/bin/kinescope" <<'S'
+#!/bin/sh
+[ "$1" != render ] || exit 0
+echo $$ > "$PIDS/$1"
+[ "$1" != serve ] || printf 'page at http://127.0.0.1:1/\nlive: \n live: \n'
+exec sleep 600
+S
+for program in cmake curl; do printf '#!/bin/sh\n' > "$programs/$program"; done
+chmod +x "$programs"/* "$tree/build/dev/bin/kinescope"
+# (A background process of a script ignores the signal of Ctrl-C, and so would all that it starts.)
+(cd "$tree" && exec env --default-signal=INT PATH="$programs:$PATH" PIDS="$room" ./demo --ros off --port 0 --udp_port 0 > "$room/demo.log" 2>&1) &
+demo=$!
+until [ -e "$room/ninja" ]; do kill -0 "$demo" 2>/dev/null || fail "./demo ended before it built the rest: $(cat "$room/demo.log")"; done
+kill -INT "$demo"
+wait "$demo" || fail "./demo ended with $? after Ctrl-C: $(cat "$room/demo.log")"
+for program in serve stream ninja; do
+  ! kill -0 "$(cat "$room/$program")" 2>/dev/null || fail "$program keeps running after Ctrl-C"
+done
+(cd "$tree" && . cmake/prepare.sh && take_the_lock) || fail "a ./demo that was stopped keeps the lock"
+rm -rf "$tree/build" "$tree/web/node_modules"
+echo 'ok: Ctrl-C stops ./demo and what it builds in the background'
+
 # Without npm the libraries of the page come from the registry that npm's settings name, and only with the sum of the lock file.
 page=$room/page registry=$room/registry
 mkdir -p "$page/src" "$registry/made/-" "$room/home"
