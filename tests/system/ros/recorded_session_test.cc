@@ -100,8 +100,8 @@ class RecordedSession : public testing::RosProgram {
     }
   }
 
-  // By how many seconds the samples of the bag came early beside the rate: on a busy machine the
-  // sender or the bridge gets no core for a while.
+  // By how many seconds the samples of the bag are early beside the rate, as the median of them is
+  // where the first came late to a busy machine: all times of the bag count from it.
   std::vector<double> Early(const std::string& bag) const {
     const std::string file = (folder_ / "times.csv").string();
     const auto result = RunProgram({KinescopePath(), "convert", bag, "--out", file});
@@ -161,27 +161,19 @@ TEST_F(RecordedSession, IsDrawnAsItsSourceIsAndWithWhatOtherNodesPublished) {
   // The bag knows what the node was told.
   const std::vector<double> early = Early(bag);
   ASSERT_GT(early.size(), 2U * kRateHz);
-  const double late_secs =
-      Median(early);  // the first sample, beside the others: all times count from it
+  const double late_secs = Median(early);
   const auto from = [](double secs) { return std::to_string(std::max(secs, 0.0)); };
   const std::vector<render::Image> expected = RenderClip(
       source, "source", {"--mass", "95", "--hand_load", "both:12", "--start", from(late_secs)});
   const std::vector<render::Image> clip = RenderClip(bag, "bag", {"--start", from(-late_secs)});
   ASSERT_EQ(expected.size(), 19U);
   ASSERT_EQ(clip.size(), expected.size());
-  std::size_t compared = 0;
   for (std::size_t i = 0; i < clip.size(); ++i) {
     const auto shown = static_cast<std::size_t>(
         (0.1 * static_cast<double>(i) + std::max(late_secs, 0.0)) * kRateHz);
-    const bool is_in_time =
-        std::all_of(early.begin() + (shown > 2 ? shown - 2 : 0), early.begin() + shown + 3,
-                    [&](double secs) { return std::abs(secs - late_secs) < 0.004; });
-    if (!is_in_time) continue;  // it shows another sample
-    ++compared;
     EXPECT_GT(Psnr(clip[i], expected[i]), 35)
         << "picture " << i << ", late by " << late_secs << ", its sample by " << early[shown];
   }
-  EXPECT_GT(compared, clip.size() / 3);
   const render::Image drawn = Render(bag, {});
   const std::string urdf = (folder_ / "arm.urdf").string();
   std::ofstream(urdf) << kArm;
