@@ -38,6 +38,8 @@ namespace {
 
 constexpr int kMessagesPerPoll = 256;
 constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
+// Read on after somebody who comes later, for what is told of them.
+constexpr std::int64_t kToldLateNanos = 2 * kTellEveryNanos;
 
 constexpr char kUnreadableTransforms[] =
     "transforms that are truncated or have a wrong length field";
@@ -264,34 +266,33 @@ void BagSource::ReadNames() {
   });
   std::map<std::string, Appearances> appearances, of_link_states;
   std::int64_t end = 0;
-  std::set<const BagConnection*> told_first;
-  constexpr std::int64_t kJustNanos = 200 * kNanosPerMilli;
+  ToldWhenTheyCame told;
   bool has_ended = true;
   BagMessage message;
   while (ahead.Next(message)) {
     const std::int64_t now = message.recorded_nanos;
     if (end == 0) end = now + kNamesNanos;
-    if (now > end && people_.people().empty()) people_.FindPeople();
+    if (now > end && people_.people().empty()) {
+      people_.FindPeople();
+      if (!people_.people().empty()) end = now + kToldLateNanos;
+    }
     if (now > end && !people_.people().empty()) {
       has_ended = false;
       break;
     }
     if (IsOfPeople(*message.connection)) {
-      // A recorder may have poses before what is latched, or comes again: not much later.
-      const bool is_of_beginning = now - (end - kNamesNanos) < kTellEveryNanos + kJustNanos;
-      if (told_first.insert(message.connection).second && is_of_beginning) {
-        // It is counted when its turn comes.
-        static_cast<void>(told_people_.Take(message.bytes));
-      }
+      told.Find(message.bytes, now, told_people_);  // it is counted when its turn comes
       continue;
     }
     if (IsLinkStates(*message.connection)) {
       of_link_states[message.connection->topic].Add(now);
+      told.OnPose(NamespaceOf(WithSlash(message.connection->topic)), now);
       continue;
     }
     if (Decode(message) != nullptr) continue;
     for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
       if (!people_.AddName(transform.child_frame_id)) continue;
+      told.OnPose(WithoutSlash(transform.child_frame_id), now);
       const std::int64_t header = ToNanos(transform.header.stamp);
       appearances[WithoutSlash(transform.child_frame_id)].Add(IsOfRecordTime(header, now) ? header
                                                                                           : now);

@@ -15,8 +15,13 @@ namespace kinescope::ros_bridge {
 
 bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes) {
   if (!ReadBounded(bytes.data(), bytes.size(), message_)) return false;
+  Take(message_);
+  return true;
+}
+
+void ToldPeople::Take(const kinescope_ros::PersonArray& message) {
   ++messages_;
-  for (const kinescope_ros::Person& person : message_.people) {
+  for (const kinescope_ros::Person& person : message.people) {
     auto known = std::find_if(told_.begin(), told_.end(), [&](const Told& told) {
       return told.message.pelvis_frame == person.pelvis_frame &&
              told.message.topics == person.topics;
@@ -35,7 +40,6 @@ bool ToldPeople::Take(const std::vector<std::uint8_t>& bytes) {
     }
     *known = {person, ++revisions_, newest_nanos_, messages_, false};
   }
-  return true;
 }
 
 // Of two nodes that tell of the same frame, the one that told something last.
@@ -116,6 +120,27 @@ void ToldPeople::OnSample(const BodySample& sample) {
     if ((told == nullptr ? 0 : told->revision) != person.revision) Give(person);
   }
   sink_->OnSample(sample);
+}
+
+bool ToldWhenTheyCame::CameJustBefore(const std::string& key, std::int64_t now_nanos) const {
+  constexpr std::int64_t kJustNanos = kTellEveryNanos + 200 * kNanosPerMilli;
+  const auto came = came_.find(key);
+  return came != came_.end() && now_nanos - came->second < kJustNanos;
+}
+
+void ToldWhenTheyCame::Find(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos,
+                            ToldPeople& people) {
+  if (!ReadBounded(bytes.data(), bytes.size(), message_)) return;
+  kinescope_ros::PersonArray found;
+  for (const kinescope_ros::Person& person : message_.people) {
+    if (told_.size() >= ToldPeople::kMostPeople) break;
+    const bool is_first = told_.emplace(person.pelvis_frame, person.topics).second;
+    if (is_first && (CameJustBefore(person.pelvis_frame, now_nanos) ||
+                     CameJustBefore(person.topics, now_nanos))) {
+      found.people.push_back(person);
+    }
+  }
+  if (!found.people.empty()) people.Take(found);
 }
 
 }  // namespace kinescope::ros_bridge

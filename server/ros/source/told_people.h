@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ class ToldPeople : public SampleSink {
 
   /// Takes the bytes of a kinescope/PersonArray. False: they are none.
   [[nodiscard]] bool Take(const std::vector<std::uint8_t>& bytes);
+  void Take(const kinescope_ros::PersonArray& message);
 
   bool is_empty() const { return told_.empty(); }
 
@@ -72,6 +74,26 @@ class ToldPeople : public SampleSink {
   std::int64_t newest_nanos_ = 0;  // stamp of the newest sample
   int said_ = 0;                   // lines of the log
   std::map<int, Person> people_;   // by character; as many as the source has
+};
+
+/// Finds in a bag what was told of people when they came. A recorder may write it just after their
+/// first poses, since it hears each topic by itself, or a second after them, when it comes again;
+/// what is told of them for the first time later is a change. Memory is limited; one thread.
+class ToldWhenTheyCame {
+ public:
+  /// A pose of who is known as `key`, the pelvis' frame or a name in front of topics, was recorded
+  /// at `now_nanos`.
+  void OnPose(const std::string& key, std::int64_t now_nanos) { came_.try_emplace(key, now_nanos); }
+  /// Gives to `people` what the bytes of a kinescope/PersonArray, recorded at `now_nanos`, tell of
+  /// those who are in one for the first time and came just before. No message: nothing.
+  void Find(const std::vector<std::uint8_t>& bytes, std::int64_t now_nanos, ToldPeople& people);
+
+ private:
+  bool CameJustBefore(const std::string& key, std::int64_t now_nanos) const;
+
+  kinescope_ros::PersonArray message_;  // reused, keeps its memory
+  std::map<std::string, std::int64_t> came_;
+  std::set<std::pair<std::string, std::string>> told_;  // at most ToldPeople::kMostPeople
 };
 
 }  // namespace kinescope::ros_bridge

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include "server/ros/link_states.h"
 #include "server/ros/person_messages.h"
@@ -235,6 +237,56 @@ TEST_F(BagTest, HasWhatWasToldOfItsPeopleFromTheFirstSampleOn) {
     EXPECT_EQ(told.front(), 5) << has_tf;
     EXPECT_EQ(told.back(), 8) << has_tf;
   }
+}
+
+// The bag begins with a robot; also later than people are looked for at first.
+TEST_F(BagTest, HasWhatWasToldOfPeopleWhoCameLate) {
+  for (const int secs : {3, 20}) {
+    const ReadPeople read = ReadBag(Bag([&](rosbag::Bag& bag) {
+      tf2_msgs::TFMessage robot;
+      robot.transforms.resize(1);
+      robot.transforms[0].header.frame_id = "world";
+      robot.transforms[0].child_frame_id = "arm_base";
+      robot.transforms[0].transform.rotation.w = 1;
+      bag.write("/tf_static", RosTimeOf(kBagStart), robot);
+      for (int n = 0; n < 20; ++n) {
+        const std::int64_t now = kBagStart + secs * kNanosPerSecond + n * kBagPeriod;
+        bag.write("/tf", RosTimeOf(now), TransformsOf(PersonAt(n, "anna")));
+        const double both_kg = n < 10 ? 5 : 8;
+        if (n % 10 == 0) {
+          bag.write("/kinescope/people", RosTimeOf(now + 1000), Told({Told("anna", 70, both_kg)}));
+        }
+      }
+    }));
+    ASSERT_EQ(read.samples.size(), 20U);
+    ASSERT_GE(read.characters.size(), 2U);
+    EXPECT_EQ(read.characters.front().told.mass_kg, 70) << secs;
+    EXPECT_EQ(read.characters.front().told_hand_load.both_kg, 5) << secs;
+    EXPECT_EQ(read.characters.back().told_hand_load.both_kg, 8) << secs;
+  }
+}
+
+// What is told of the first one when the second comes is a change.
+TEST_F(BagTest, HasNotWhatWasToldOfOthersWhenSomebodyCame) {
+  const ReadPeople read = ReadBag(Bag([](rosbag::Bag& bag) {
+    for (int n = 0; n < 20; ++n) {
+      const ros::Time now = RosTimeOf(kBagStart + n * kBagPeriod);
+      bag.write("/tf", now, TransformsOf(PersonAt(n, "anna")));
+      if (n >= 10) bag.write("/tf", now, TransformsOf(PersonAt(n, "ben")));
+      if (n == 0) bag.write("/kinescope/people", now, Told({Told("anna", 70, 5)}));
+      if (n == 10) {
+        bag.write("/kinescope/people", now, Told({Told("anna", 70, 8), Told("ben", 60, 2)}));
+      }
+    }
+  }));
+  std::map<int, std::vector<double>> held;
+  for (const Character& character : read.characters) {
+    held[character.id].push_back(character.told_hand_load.both_kg);
+  }
+  ASSERT_EQ(held.size(), 2U);
+  EXPECT_EQ(held[0].front(), 5);
+  EXPECT_EQ(held[0].back(), 8);
+  EXPECT_EQ(held[1].front(), 2);
 }
 
 }  // namespace
