@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/folders.h"
 #include "tests/free_port.h"
 #include "tests/process.h"
 #include "tests/system/kinescope_path.h"
@@ -39,17 +40,16 @@ class RosProgram : public ::testing::Test {
     char* arguments[] = {name.data(), nullptr};
     int count = 1;
     ros::init(count, arguments, name, ros::init_options::NoSigintHandler);
-    const auto deadline = Clock::now() + kPatience;
-    while (!ros::master::check() && Clock::now() < deadline) {
-    }
-    ASSERT_TRUE(ros::master::check()) << "the master does not start";
+    ASSERT_TRUE(ros::master::check()) << "the master does not answer";
     node_ = std::make_unique<ros::NodeHandle>();
   }
 
   /// At the same place whenever it is started.
   void StartMaster() {
     master_ = std::make_unique<Process>(std::vector<std::string>{
-        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_.number())});
+        KINESCOPE_PYTHON, InSourceTree("tests/system/ros/master.py").string(),
+        std::to_string(port_.number())});
+    ASSERT_TRUE(master_->ReadLine(kPatience)) << "the master does not start";
   }
 
   /// A kinescope process whose log can be read line by line.
