@@ -169,7 +169,7 @@ export class MarkPad {
     if (!this.marks.hasMoment(mark)) return this.notice('This mark is of an earlier start of the server, whose samples are gone');
     if (mark.at.micros / 1000 > kept.newest + SOON_MILLIS) return this.notice('The recording has not come to this mark yet');
     if (mark.at.micros / 1000 < kept.oldest) return this.notice('The moment of this mark is no longer kept');
-    this.shown.pauseAt((mark.at.micros + 1) / 1000);  // rounded down to µs
+    this.shown.pauseAt((mark.at.micros + 1) / 1000, this.marks.isOfEarlierRun(mark) ? mark.at.stamp_micros : null);  // µs were rounded down
   }
 
   /** Shows what there is; call it several times a second.

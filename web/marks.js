@@ -110,6 +110,12 @@ export class Marks {
     return mark.run_micros === this.#runMicros || this.#placed.has(mark.id);
   }
 
+  /** Whether its moment was found in the recording: it is that of its sample but for how late the server makes states.
+   *  @param {Mark} mark */
+  isOfEarlierRun(mark) {
+    return this.#placed.has(mark.id);
+  }
+
   /** The last one that this page has set and that is still there. */
   get lastOwn() {
     const id = this.#mine.filter((each) => this.#marks.has(each)).at(-1);

@@ -11,6 +11,8 @@ import { ViewerTime } from './viewer_time.js';
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
 /** Between two of the newest states that a viewer who looks back is sent; with some delay. */
 const FEW_STATES_MILLIS = 300;
+/** By which a sample is looked for beside the one of a moment: each goes most of the way. */
+const MOST_TRIES = 8;
 /** Less than samples are apart, and more than a place in an address is rounded: it is that of its sample. */
 const SAME_SAMPLE_MICROS = 1500;
 
@@ -40,6 +42,7 @@ export class Shown {
   #wantsFew = false;     // as the server was told
   #askedMicros = NaN;  // of the moment last asked for
   /** @type {{by: number, from: State}|null} */ #step = null;  // under way
+  /** @type {{stampMicros: number, tries: number}|null} */ #sought = null;
   #addressAt = 0;
   /** @type {{micros: number|null, place: number|null}} */ #linked;
   /** @type {Page} */ #page;
@@ -123,16 +126,20 @@ export class Shown {
   }
 
   /** As seek(), and stays there.
-   *  @param {number} millis */
-  pauseAt(millis) {
+   *  @param {number} millis
+   *  @param {number|null} stampMicros  of the sample that is meant, where the moment is not certain: a busy server makes states
+   *    later than usual */
+  pauseAt(millis, stampMicros = null) {
     const range = this.kept();
     if (range === null) return;
     this.time.pause(performance.now(), range, millis);
     this.onTimeChanged();
+    if (stampMicros !== null) this.#sought = { stampMicros, tries: MOST_TRIES };
   }
 
   /** Call it after every change of `time`. */
   onTimeChanged() {
+    this.#sought = null;
     const range = this.kept();
     if (range?.hasEnded) this.time.momentAt(performance.now(), range);  // which is not live
     this.#tellWhetherFew();
@@ -187,6 +194,7 @@ export class Shown {
     const now = performance.now();
     this.#askedMicros = microsOf(this.time.momentAt(now, range));  // the answer says where the step leads
     this.#step = { by, from };
+    this.#sought = null;
     this.#askNextTo(from, now);
   }
 
@@ -208,11 +216,24 @@ export class Shown {
       return this.#run.add(formers, 'micros' in wanted ? wanted.micros : last.madeMicros, answer.untilMicros);
     }
     if ('until_micros' in answered.wanted) return;  // it was paused meanwhile
+    const number = this.#numberOfSought(last.state);
+    if (number !== null) return this.#lookBack.ask({ number }, now);
     if (this.#isStillThere(last.state)) return this.#askNextTo(last.state, now);
     // To the sample itself, so that a step leads to another one.
     if (!this.time.isGone(now, range)) this.time.pause(now, range, last.madeMicros / 1000);
     this.#askedMicros = microsOf(last.madeMicros / 1000);
     this.#show(last);
+  }
+
+  /** @param {State} state  that has come
+   *  @returns {number|null} of the state to ask for in its place; null: it is the one that is sought, or none is */
+  #numberOfSought({ stampMicros, stateNumber, rateHz }) {
+    const away = (this.#sought?.stampMicros ?? stampMicros) - stampMicros;
+    if (Math.abs(away) <= SAME_SAMPLE_MICROS || this.#sought === null || this.#sought.tries-- === 0) {
+      this.#sought = null;
+      return null;
+    }
+    return Math.max(0, stateNumber + (Math.round(away * rateHz / 1e6) || Math.sign(away)));
   }
 
   /** @param {FormerState} former */
@@ -315,6 +336,6 @@ export class Shown {
     const millis = (from + 1e6 * (secondsAfter - roundBefore)) / 1000;
     if (isToCome) notice('The recording ends before the moment of this link: you see its end');
     else if (millis < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
-    this.pauseAt(millis);
+    this.pauseAt(millis, newest.stampMicros + 1e6 * (secondsAfter - roundBefore));
   }
 }
