@@ -111,16 +111,17 @@ for (const [layout, viewport] of [['desk', DESKTOP], ['phone', PHONE], ['wall', 
     const { page: past, close } = await openLive(2);
     await past.keyboard.press('Space');
     await past.waitForFunction(() => new URL(location.href).searchParams.has('t'), null, LONG);
-    const t = Number(new URL(past.url()).searchParams.get('t'));
+    const t = Number(new URL(past.url()).searchParams.get('t')), first = await sampleOf(past);
     await close();
     const open = (query, isDrawn) => openPage(`${site.url}?view=${layout}&${query}`, { viewport, isDrawn });
     const viewers = [await open(`t=${t}&camera=front`, true), await open(`t=${t - 1}&camera=top`, true), await open('camera=front')];
     const [one, two, live] = viewers.map(({ page }) => page);
     for (const page of [one, two]) await statusIs(page, /^Behind −[1-9]/);
     await statusIs(live, /^Live$/);
-    const [first, second] = [await sampleOf(one), await sampleOf(two)];
-    // 60 samples in the mean; a busy machine makes them late, and then several at once.
-    assert.ok(Math.abs(first - second - 60) <= 20, `${first} and ${second}, a second apart`);
+    await sampleIs(one, first);
+    // 60 samples in the mean; a busy machine makes them late, and then several at once. It is there with the server's answer.
+    await two.waitForFunction((other) => Math.abs(other - Number(document.getElementById('sample').textContent) - 60) <= 20, first, LONG);
+    const second = await sampleOf(two);
     await live.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 30, first, LONG);
     assert.deepEqual([await sampleOf(one), await sampleOf(two)], [first, second]);
     const [front, top] = [await pixelsOf(one, '#view canvas'), await pixelsOf(two, '#view canvas')];
@@ -197,11 +198,12 @@ test('who plays the past asks for it twice a second, and is sent the newest stat
   const pauses = traffic.sent.slice(before.sent).map((micros, i, all) => (i === 0 ? 0 : (micros - all[i - 1]) / 1e6));
   const few = pauses.slice(pauses.findIndex((pause) => pause > 0.1));
   assert.ok(few.length >= 3 && few.every((pause) => pause > 0.1), `newest states after ${pauses} s`);
-  // Single moments are asked for alone, also while it plays.
+  // Single moments are asked for alone, also while it plays, which may ask for one more run before the key comes.
   const runs = traffic.looks.length;
   await page.keyboard.press('Home');
   await page.waitForFunction((older) => Number(document.getElementById('sample').textContent) < older, first + 60, LONG);
-  assert.deepEqual(Object.keys(traffic.looks[runs]).sort(), ['id', 'micros']);
+  const single = traffic.looks.slice(runs).find(({ until_micros: until }) => until === undefined);
+  assert.deepEqual(Object.keys(single ?? {}).sort(), ['id', 'micros']);
   const states = traffic.sent.length, newest = await page.evaluate(() => performance.now());
   await page.keyboard.press('Escape');
   await statusIs(page, /^Live$/);
