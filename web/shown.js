@@ -333,9 +333,9 @@ export class Shown {
     if (range === null) return notice('This server keeps no former moments: you see the newest one');
     const from = (recording.ended_micros ?? newest.madeMicros) + SAME_SAMPLE_MICROS;
     const roundBefore = secondsAfter > 0 ? recording.round_secs ?? 0 : 0;
-    const millis = (from + 1e6 * (secondsAfter - roundBefore)) / 1000;
+    const away = 1e6 * (secondsAfter - roundBefore), millis = (from + away) / 1000, isKept = !isToCome && millis >= range.oldest;
     if (isToCome) notice('The recording ends before the moment of this link: you see its end');
     else if (millis < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
-    this.pauseAt(millis, newest.stampMicros + 1e6 * (secondsAfter - roundBefore));
+    this.pauseAt(millis, isKept ? newest.stampMicros + away : null);
   }
 }

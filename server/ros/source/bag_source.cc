@@ -38,8 +38,6 @@ namespace {
 
 constexpr int kMessagesPerPoll = 256;
 constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
-// Read on after somebody who comes later, for what is told of them.
-constexpr std::int64_t kToldLateNanos = 2 * kTellEveryNanos;
 
 constexpr char kUnreadableTransforms[] =
     "transforms that are truncated or have a wrong length field";
@@ -274,7 +272,7 @@ void BagSource::ReadNames() {
     if (end == 0) end = now + kNamesNanos;
     if (now > end && people_.people().empty()) {
       people_.FindPeople();
-      if (!people_.people().empty()) end = now + kToldLateNanos;
+      if (!people_.people().empty()) end = now + ToldWhenTheyCame::kJustNanos;
     }
     if (now > end && !people_.people().empty()) {
       has_ended = false;

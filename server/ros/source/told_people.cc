@@ -123,7 +123,6 @@ void ToldPeople::OnSample(const BodySample& sample) {
 }
 
 bool ToldWhenTheyCame::CameJustBefore(const std::string& key, std::int64_t now_nanos) const {
-  constexpr std::int64_t kJustNanos = kTellEveryNanos + 200 * kNanosPerMilli;
   const auto came = came_.find(key);
   return came != came_.end() && now_nanos - came->second < kJustNanos;
 }

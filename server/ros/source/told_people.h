@@ -81,6 +81,9 @@ class ToldPeople : public SampleSink {
 /// what is told of them for the first time later is a change. Memory is limited; one thread.
 class ToldWhenTheyCame {
  public:
+  /// Up to so long after their first poses.
+  static constexpr std::int64_t kJustNanos = kTellEveryNanos + 200 * kNanosPerMilli;
+
   /// A pose of who is known as `key`, the pelvis' frame or a name in front of topics, was recorded
   /// at `now_nanos`.
   void OnPose(const std::string& key, std::int64_t now_nanos) { came_.try_emplace(key, now_nanos); }
